@@ -1,0 +1,227 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace gaitmill {
+
+// What a model document says, as plain values. References are names, as in the document; core/model
+// resolves them once. Body-fixed quantities are in the frame of their body. Units SI, angles rad.
+
+/// Function of one coordinate. Value = scale * f(x).
+struct FunctionSpec {
+  enum class Kind {
+    kConstant,    ///< y[0]
+    kLinear,      ///< y[0] x + y[1]
+    kPolynomial,  ///< y[0] x^n + ... + y[n]
+    kSimmSpline,  ///< cubic through (x, y), end conditions of spec/model.md 5.2, linear outside
+    kPiecewiseLinear,  ///< through (x, y), end slopes outside
+  };
+  Kind kind = Kind::kConstant;
+  std::vector<double> x;
+  std::vector<double> y = {0.0};
+  double scale = 1.0;
+};
+
+/// Cylinder over which muscle paths wrap; axis = local z through `translation`.
+struct WrapCylinderSpec {
+  std::string name;                                    ///< unique in the model
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();  ///< body-fixed x-y-z angles
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  std::string quadrant =
+      "all";  ///< "all", or the half space in which the path must stay: "x", "-y"
+  double radius = 1.0;
+  double length = 1.0;
+  bool active = true;
+};
+
+struct BodySpec {
+  std::string name;
+  double mass = 0;  ///< [kg]
+  Eigen::Vector3d mass_center = Eigen::Vector3d::Zero();
+  /// About the mass centre, body axes: xx yy zz xy xz yz [kg m^2].
+  std::array<double, 6> inertia = {0, 0, 0, 0, 0, 0};
+  std::vector<WrapCylinderSpec> wrap_cylinders;
+};
+
+/// A joint's frame on a body: X = [Rx(a) Ry(b) Rz(c) | translation].
+struct FrameSpec {
+  std::string body;  ///< "ground" or a body
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  Eigen::Vector3d orientation = Eigen::Vector3d::Zero();
+};
+
+struct CoordinateSpec {
+  std::string name;
+  double default_value = 0;
+  double default_speed = 0;
+  double range_min = -10;
+  double range_max = 10;
+  bool clamped = false;
+  bool locked = false;
+};
+
+/// One of the six axes of a custom joint. Without a coordinate the function is a constant.
+struct TransformAxisSpec {
+  std::string coordinate;  ///< empty = none
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
+  FunctionSpec function;
+};
+
+struct JointSpec {
+  enum class Kind { kWeld, kPin, kSlider, kUniversal, kPlanar, kGimbal, kCustom };
+  std::string name;
+  Kind kind = Kind::kWeld;
+  FrameSpec parent;
+  FrameSpec child;  ///< its body is the joint's child body
+  std::vector<CoordinateSpec> coordinates;
+  /// rotation1..3 then translation1..3; used by kCustom only (spec/model.md 4.1).
+  std::array<TransformAxisSpec, 6> axes;
+};
+
+/// dependent = scale * f(independent), always enforced unless stated.
+struct CouplerSpec {
+  std::string name;
+  std::string independent;
+  std::string dependent;
+  FunctionSpec function;
+  double scale = 1.0;
+  bool enforced = true;
+};
+
+struct MarkerSpec {
+  std::string name;
+  std::string body;
+  Eigen::Vector3d location = Eigen::Vector3d::Zero();
+  bool fixed = false;  ///< not moved by marker placement
+};
+
+struct PathPointSpec {
+  std::string body;
+  Eigen::Vector3d location = Eigen::Vector3d::Zero();
+};
+
+/// One wrap object of a path. The range counts path points from 1, -1 = open end.
+struct PathWrapSpec {
+  std::string wrap_object;
+  int first_point = -1;
+  int last_point = -1;
+};
+
+/// Parameters of the four muscle curves (spec/muscle.md 2). The defaults are those of
+/// Rajagopal2016.
+struct MuscleCurvesSpec {
+  double active_min_length = 0.25;  ///< [l0M] active force-length
+  double active_transition_length = 0.77;
+  double active_max_length = 1.9;
+  double active_shallow_slope = 0.75;
+  double active_minimum_value = 0.0;
+  double concentric_slope_at_vmax = 0.0;  ///< force-velocity
+  double concentric_slope_near_vmax = 0.25;
+  double isometric_slope = 5.0;
+  double eccentric_slope_at_vmax = 0.0;
+  double eccentric_slope_near_vmax = 0.15;
+  double max_eccentric_force = 1.4;
+  double concentric_curviness = 0.6;
+  double eccentric_curviness = 0.9;
+  double passive_strain_at_zero_force = 0.0;  ///< passive force-length
+  double passive_strain_at_one_force = 0.7;
+  double passive_stiffness_at_low_force = 0.2;
+  double passive_stiffness_at_one_force = 2.0 / 0.7;
+  double passive_curviness = 0.75;
+  double tendon_strain_at_one_force = 0.049;  ///< tendon force-length
+  double tendon_stiffness_at_one_force = 1.375 / 0.049;
+  double tendon_force_at_toe_end = 2.0 / 3.0;
+  double tendon_curviness = 0.5;
+};
+
+enum class TendonKind { kElastic, kRigid };
+
+/// One Hill-type muscle-tendon unit after Millard et al. (2013).
+struct MuscleSpec {
+  std::string name;
+  double max_isometric_force = 0;             ///< F0M [N] > 0
+  double optimal_fiber_length = 0;            ///< l0M [m] > 0
+  double tendon_slack_length = 0;             ///< lsT [m] > 0
+  double pennation_at_optimal = 0;            ///< alpha0 [rad] in [0, pi/2)
+  double max_contraction_velocity = 10;       ///< vmax [optimal fiber lengths / s]
+  double fiber_damping = 0.1;                 ///< beta [-]
+  double activation_time_constant = 0.010;    ///< [s]
+  double deactivation_time_constant = 0.040;  ///< [s]
+  double minimum_activation = 0.01;
+  double default_activation = 0.01;
+  double default_fiber_length = 0.1;              ///< [m]
+  double maximum_pennation = 1.4706289056333368;  ///< acos(0.1) [rad]
+  double min_control = 0.01;
+  double max_control = 1.0;
+  TendonKind tendon = TendonKind::kElastic;
+  MuscleCurvesSpec curves;
+  std::vector<PathPointSpec> path;
+  std::vector<PathWrapSpec> wraps;
+};
+
+/// An ideal actuator: generalized force, point force or torque = control * optimal_force.
+struct ActuatorSpec {
+  enum class Kind {
+    kCoordinate,  ///< generalized force on `coordinate`
+    kPoint,       ///< force along `direction` at `point` of `body`
+    kTorque,      ///< torque along `direction` on `body`, reaction on `reaction_body`
+  };
+  std::string name;
+  Kind kind = Kind::kCoordinate;
+  std::string coordinate;
+  std::string body;
+  std::string reaction_body;                        ///< kTorque; "ground" or empty = none
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< kPoint: fixed in the body
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
+  bool direction_in_ground = true;  ///< else in the axes of `body`
+  double optimal_force = 1.0;       ///< [N] or [N.m]
+  double min_control = -1e300;      ///< "-Inf" in documents
+  double max_control = 1e300;
+};
+
+struct MuscleGroupSpec {
+  std::string name;
+  std::vector<std::string> members;
+};
+
+/// A whole model. Names are unique within their list; order is the document's.
+struct ModelSpec {
+  std::string name;
+  std::string credits;
+  Eigen::Vector3d gravity{0, -9.80665, 0};  ///< [m/s^2]
+  std::vector<BodySpec> bodies;
+  std::vector<WrapCylinderSpec> ground_wrap_cylinders;
+  std::vector<JointSpec> joints;
+  std::vector<CouplerSpec> couplers;
+  std::vector<MarkerSpec> markers;
+  std::vector<MuscleSpec> muscles;
+  std::vector<ActuatorSpec> actuators;
+  std::vector<MuscleGroupSpec> muscle_groups;
+
+  /// Sum of the body masses [kg].
+  double calcTotalMass() const;
+  /// Position in the list, or -1.
+  int findBody(const std::string& body_name) const;
+  int findMuscle(const std::string& muscle_name) const;
+  int findMarker(const std::string& marker_name) const;
+  /// Coordinate of that name in any joint, or null.
+  const CoordinateSpec* findCoordinate(const std::string& coordinate_name) const;
+};
+
+/// Multiplies every body mass so that the total becomes `total_mass` [kg]; inertias scale alike if
+/// asked (correct physics), or stay (the published procedure after residual reduction).
+enum class InertiaScaling { kWithMass, kKeep };
+void setTotalMass(ModelSpec& spec, double total_mass, InertiaScaling inertia);
+
+/// True if the coordinate rotates a joint axis one to one, so that files in degrees are converted.
+/// A coordinate that drives its joint only through splines (patella) is "coupled": never converted.
+enum class MotionKind { kRotational, kTranslational, kCoupled };
+MotionKind findMotionKind(const JointSpec& joint, const std::string& coordinate);
+/// The same, searching all joints. @throws Error kInputCoordinates if there is no such coordinate
+MotionKind findMotionKind(const ModelSpec& spec, const std::string& coordinate);
+
+}  // namespace gaitmill
