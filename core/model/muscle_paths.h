@@ -11,8 +11,7 @@ namespace gaitmill {
 
 /// Lengths and moment arms of all muscle paths at once, wrapped over cylinders as true geodesics
 /// (spec/path.md, exact mode: closed form per cylinder, several cylinders iterated to convergence).
-/// One per thread. Warm-starts from the previous pose for speed only: the converged answer does not
-/// depend on it. calc() does not allocate.
+/// One per thread. Stateless between calls; calc() does not allocate.
 class MusclePaths {
  public:
   explicit MusclePaths(const Model& model);  ///< keeps a reference to the model
@@ -35,9 +34,6 @@ class MusclePaths {
 
   /// Number of cylinders that the path touched in the last calc(): changes mark kinks of dl/dt.
   int findWrapCount(MuscleIndex muscle) const;
-
-  /// Ground points of the path as last evaluated, for drawing: (3 x n) with wrapped arcs sampled.
-  Eigen::Matrix3Xd samplePath(MuscleIndex muscle, double max_step) const;
 
  private:
   struct Impl;
