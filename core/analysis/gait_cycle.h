@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/data/time_series.h"
+
+namespace gaitmill {
+
+/// One gait cycle of a leg: from a heel strike to the next of the same foot [s].
+struct GaitCycle {
+  double first_strike = 0;
+  double second_strike = 1;
+};
+
+/// 100 (t - RHS1) / (RHS2 - RHS1); below 0 before the cycle, above 100 after it.
+double calcPercent(const GaitCycle& cycle, double time);
+/// The inverse [s].
+double calcCycleTime(const GaitCycle& cycle, double percent);
+
+/// A whole percent of the cycle and the instant it is read at, which may lie one cycle later.
+struct CycleSample {
+  double percent = 0;  ///< 0..100
+  double time = 0;     ///< [s]
+};
+
+/// The whole percents at which two curves are compared, in the order of time (spec/paper_metrics.md
+/// C). A record that covers the cycle from its start gives 0..100. One that starts later is
+/// realigned at the seam s: s..100, then 0..s read one cycle later, so that s and 0/100 occur twice
+/// (102 samples for the published walking trial, s = 25). Samples outside the record are left out,
+/// never extrapolated.
+/// @param first_time, last_time  what the record covers [s]
+/// @param seam_percent           s in 0..100; by default the first whole percent that is covered
+/// @throws Error kInputTimeRange if the cycle has no length
+std::vector<CycleSample> makeComparisonGrid(const GaitCycle& cycle,
+                                            double first_time,
+                                            double last_time,
+                                            std::optional<int> seam_percent = std::nullopt);
+
+/// The table on 0..100 % of the cycle: 101 rows, `time` holds the percent, linear interpolation.
+/// Percents below the seam are read one cycle later; the step that this leaves at the seam is not
+/// smoothed (spec/signal.md 8). NaN where the record has no such instant.
+TimeSeries normalizeToCycle(const TimeSeries& table,
+                            const GaitCycle& cycle,
+                            std::optional<int> seam_percent = std::nullopt);
+
+}  // namespace gaitmill
