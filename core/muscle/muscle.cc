@@ -1,0 +1,325 @@
+#include "core/muscle/muscle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/units.h"
+
+namespace gaitmill {
+namespace {
+
+// "Numerically zero" of the muscle equations: 2^(-52 * 7/8) (spec/muscle.md 1).
+constexpr double kNegligible = 2.0097183471152322e-14;
+// Below this damping a muscle counts as undamped, which this product does not offer.
+constexpr double kMinDamping = 0.001;
+// Root finding stops at a step of this size relative to the normalised velocity or length.
+constexpr double kRoundOff = 4e-16;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kMaxSteps = 200;
+
+void requireField(bool ok, const MuscleSpec& spec, const char* field, double value) {
+  require(
+      ok,
+      ErrorCode::kMuscleParameter,
+      "muscle '" + spec.name + "': " + field + " is " + std::to_string(value) + ", out of range",
+      {"", 0, 0, field});
+}
+
+void validate(const MuscleSpec& s) {
+  requireField(s.max_isometric_force > 0, s, "max_isometric_force", s.max_isometric_force);
+  requireField(s.optimal_fiber_length > 0, s, "optimal_fiber_length", s.optimal_fiber_length);
+  requireField(s.tendon_slack_length > 0, s, "tendon_slack_length", s.tendon_slack_length);
+  requireField(s.pennation_at_optimal >= 0 && s.pennation_at_optimal < kPi / 2,
+               s,
+               "pennation_angle_at_optimal",
+               s.pennation_at_optimal);
+  requireField(
+      s.max_contraction_velocity > 0, s, "max_contraction_velocity", s.max_contraction_velocity);
+  requireField(s.fiber_damping >= (s.tendon == TendonKind::kRigid ? 0.0 : kMinDamping),
+               s,
+               "fiber_damping",
+               s.fiber_damping);
+  requireField(
+      s.activation_time_constant > 0, s, "activation_time_constant", s.activation_time_constant);
+  requireField(s.deactivation_time_constant > 0,
+               s,
+               "deactivation_time_constant",
+               s.deactivation_time_constant);
+  requireField(s.minimum_activation >= 0 && s.minimum_activation <= 1,
+               s,
+               "minimum_activation",
+               s.minimum_activation);
+  requireField(s.maximum_pennation >= s.pennation_at_optimal && s.maximum_pennation < kPi / 2,
+               s,
+               "maximum_pennation_angle",
+               s.maximum_pennation);
+}
+
+// Root of an increasing function by Newton steps inside a bracket that grows until it holds the
+// root; bisection where Newton does not halve the residual. `scale` is the size of a sensible step.
+template <class Function>
+double solveIncreasing(const Function& residual, double x, double scale) {
+  double low = -kInfinity;
+  double high = kInfinity;
+  double last_size = kInfinity;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const auto at = residual(x);
+    if (at.value == 0) {
+      return x;
+    }
+    (at.value > 0 ? high : low) = x;
+    const double size = std::abs(at.value);
+    const bool slow = size > 0.5 * last_size;
+    last_size = size;
+    double next = x - at.value / at.slope;
+    if (!(next > low && next < high) || !(at.slope > 0)) {
+      const bool bracketed = low > -kInfinity && high < kInfinity;
+      next = bracketed ? 0.5 * (low + high) : (at.value > 0 ? x - scale : x + scale);
+      scale *= 2;
+    } else if (slow && low > -kInfinity && high < kInfinity) {
+      next = 0.5 * (low + high);
+    }
+    const double change = std::abs(next - x);
+    x = next;
+    if (change <= kRoundOff * (1 + std::abs(x))) {
+      break;
+    }
+  }
+  return x;
+}
+
+}  // namespace
+
+Muscle::Muscle(const MuscleSpec& spec, std::shared_ptr<const MuscleCurves> curves)
+    : curves_(std::move(curves)) {
+  validate(spec);
+  activation_dynamics_.activation_time_constant = spec.activation_time_constant;
+  activation_dynamics_.deactivation_time_constant = spec.deactivation_time_constant;
+  max_force_ = spec.max_isometric_force;
+  optimal_length_ = spec.optimal_fiber_length;
+  slack_length_ = spec.tendon_slack_length;
+  max_speed_ = spec.optimal_fiber_length * spec.max_contraction_velocity;
+  damping_ = spec.fiber_damping;
+  minimum_activation_ = spec.minimum_activation;
+  rigid_ = spec.tendon == TendonKind::kRigid;
+
+  height_ = optimal_length_ * std::sin(spec.pennation_at_optimal);
+  max_pennation_sin_ = std::sin(spec.maximum_pennation);
+  max_pennation_cos_ = std::cos(spec.maximum_pennation);
+  min_pennation_length_ =
+      spec.maximum_pennation > kNegligible ? height_ / max_pennation_sin_ : 0.01 * optimal_length_;
+  min_length_ = std::max({kNegligible,
+                          curves_->active_force_length.startX() * optimal_length_,
+                          min_pennation_length_});
+}
+
+Muscle::Geometry Muscle::calcGeometry(double fiber_length) const noexcept {
+  Geometry g;
+  const double l = fiber_length;
+  if (height_ == 0) {
+    g.along = l;
+    return g;
+  }
+  const double sin = height_ / l;
+  if (l > min_pennation_length_ && sin < max_pennation_sin_) {
+    g.cos = std::sqrt((1 - sin) * (1 + sin));
+    g.cos_slope = sin * sin / (l * g.cos);
+    g.along_slope = 1 / g.cos;
+  } else {
+    g.cos = max_pennation_cos_;
+    g.along_slope = g.cos;
+  }
+  g.along = l * g.cos;
+  return g;
+}
+
+double Muscle::calcRigidLength(double path_length) const noexcept {
+  const double along = path_length - slack_length_;
+  return along >= min_pennation_length_ * max_pennation_cos_ ? std::hypot(height_, along)
+                                                             : min_pennation_length_;
+}
+
+FiberState Muscle::calcRigid(double activation,
+                             double path_length,
+                             double path_speed) const noexcept {
+  FiberState state;
+  state.length = std::max(min_length_, calcRigidLength(path_length));
+  const Geometry geometry = calcGeometry(state.length);
+  state.cos_pennation = geometry.cos;
+  state.tendon_length = path_length - geometry.along;
+  const double norm_length = state.length / optimal_length_;
+  state.active_length_multiplier = curves_->active_force_length.calc(norm_length).value;
+  state.passive_multiplier = curves_->passive_force_length.calc(norm_length).value;
+
+  const bool slack = state.tendon_length < slack_length_ - kNegligible;
+  state.velocity = slack ? 0 : path_speed * geometry.cos;
+  if (state.length <= min_length_ && state.velocity <= 0) {
+    state.velocity = 0;
+    return state;
+  }
+  state.norm_velocity = state.velocity / max_speed_;
+  state.velocity_multiplier = curves_->force_velocity.calc(state.norm_velocity).value;
+  const double a = std::clamp(activation, minimum_activation_, 1.0);
+  state.active_force = max_force_ * a * state.active_length_multiplier * state.velocity_multiplier;
+  // Fast shortening makes the damper push; a fiber cannot, so the damping force is cut.
+  state.passive_force =
+      std::max(max_force_ * (state.passive_multiplier + damping_ * state.norm_velocity),
+               -state.active_force);
+  state.tendon_force = (state.active_force + state.passive_force) * geometry.cos;
+  return state;
+}
+
+FiberState Muscle::calcElastic(double activation,
+                               double fiber_length,
+                               double path_length) const noexcept {
+  FiberState state;
+  const double a = std::clamp(activation, minimum_activation_, 1.0);
+  state.length = std::max(min_length_, fiber_length);
+  const Geometry geometry = calcGeometry(state.length);
+  state.cos_pennation = geometry.cos;
+  state.tendon_length = path_length - geometry.along;
+  const double norm_length = state.length / optimal_length_;
+  state.active_length_multiplier = curves_->active_force_length.calc(norm_length).value;
+  state.passive_multiplier = curves_->passive_force_length.calc(norm_length).value;
+  const double tendon =
+      curves_->tendon_force_length.calc(state.tendon_length / slack_length_).value;
+  state.tendon_force = max_force_ * tendon;
+
+  // Start from the inverse force-velocity curve, which is exact without damping.
+  const double force = (tendon / geometry.cos - state.passive_multiplier) /
+                       std::max(a * state.active_length_multiplier, 1e-4);
+  const double guess =
+      std::clamp(curves_->inverse_force_velocity.calc(force).value, -1.0, 1.0) * max_speed_;
+  state.velocity = solveStageVelocity({a, state.length, path_length, 0.0}, guess);
+  if (state.length <= min_length_ && state.velocity <= 0) {
+    state.velocity = 0;
+    return state;
+  }
+  state.norm_velocity = state.velocity / max_speed_;
+  state.velocity_multiplier = curves_->force_velocity.calc(state.norm_velocity).value;
+  state.active_force = max_force_ * a * state.active_length_multiplier * state.velocity_multiplier;
+  state.passive_force = max_force_ * (state.passive_multiplier + damping_ * state.norm_velocity);
+  return state;
+}
+
+double Muscle::calcTendonForce(double fiber_length, double path_length) const noexcept {
+  const double along = calcGeometry(std::max(min_length_, fiber_length)).along;
+  return max_force_ *
+         curves_->tendon_force_length.calc((path_length - along) / slack_length_).value;
+}
+
+Muscle::Residual Muscle::calcStageResidual(const Stage& stage,
+                                           double norm_velocity) const noexcept {
+  // How far the fiber moves per unit of normalised velocity; none once it rests on its stop.
+  double reach = stage.step * max_speed_;
+  double length = stage.start_length + reach * norm_velocity;
+  if (length < min_length_) {
+    length = min_length_;
+    reach = 0;
+  }
+  const Geometry g = calcGeometry(length);
+  const CurvePoint active = curves_->active_force_length.calc(length / optimal_length_);
+  const CurvePoint passive = curves_->passive_force_length.calc(length / optimal_length_);
+  const CurvePoint velocity = curves_->force_velocity.calc(norm_velocity);
+  const CurvePoint tendon =
+      curves_->tendon_force_length.calc((stage.path_length - g.along) / slack_length_);
+
+  const double a = stage.activation;
+  const double fiber = a * active.value * velocity.value + passive.value + damping_ * norm_velocity;
+  const double fiber_slope_v = a * active.value * velocity.slope + damping_;
+  const double fiber_slope_l =
+      (a * active.slope * velocity.value + passive.slope) / optimal_length_;
+  return {fiber * g.cos - tendon.value,
+          fiber_slope_v * g.cos + reach * (fiber_slope_l * g.cos + fiber * g.cos_slope +
+                                           tendon.slope * g.along_slope / slack_length_)};
+}
+
+double Muscle::solveStageVelocity(const Stage& stage, double guess) const noexcept {
+  const double norm_velocity = solveIncreasing(
+      [&](double v) { return calcStageResidual(stage, v); }, guess / max_speed_, 0.1);
+  const double velocity = norm_velocity * max_speed_;
+  const bool stops = stage.step > 0 && stage.start_length + stage.step * velocity < min_length_;
+  return stops ? (min_length_ - stage.start_length) / stage.step : velocity;
+}
+
+Muscle::Residual Muscle::calcStaticResidual(double activation,
+                                            double fiber_length,
+                                            double path_length) const noexcept {
+  const Geometry g = calcGeometry(fiber_length);
+  const CurvePoint active = curves_->active_force_length.calc(fiber_length / optimal_length_);
+  const CurvePoint passive = curves_->passive_force_length.calc(fiber_length / optimal_length_);
+  const CurvePoint tendon =
+      curves_->tendon_force_length.calc((path_length - g.along) / slack_length_);
+  const double fiber = activation * active.value + passive.value;
+  const double fiber_slope = (activation * active.slope + passive.slope) / optimal_length_;
+  return {fiber * g.cos - tendon.value,
+          fiber_slope * g.cos + fiber * g.cos_slope + tendon.slope * g.along_slope / slack_length_};
+}
+
+double Muscle::solveStaticLength(double activation, double path_length) const noexcept {
+  const double a = std::clamp(activation, minimum_activation_, 1.0);
+  double low = min_length_;
+  if (calcStaticResidual(a, low, path_length).value >= 0) {
+    return low;
+  }
+  // At this length the tendon has length zero and pulls nothing.
+  double high = std::max(low, std::hypot(path_length, height_));
+  double last_size = kInfinity;
+  double length =
+      std::clamp(std::hypot(height_, std::max(0.0, path_length - 1.01 * slack_length_)), low, high);
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const Residual at = calcStaticResidual(a, length, path_length);
+    (at.value > 0 ? high : low) = length;
+    const bool slow = std::abs(at.value) > 0.5 * last_size;
+    last_size = std::abs(at.value);
+    double next = length - at.value / at.slope;
+    if (slow || !(next > low && next < high)) {
+      next = 0.5 * (low + high);
+    }
+    const double change = std::abs(next - length);
+    length = next;
+    if (change <= kRoundOff * optimal_length_) {
+      break;
+    }
+  }
+  return length;
+}
+
+double Muscle::calcRigidActiveForce(double path_length, double path_speed) const noexcept {
+  const double length = calcRigidLength(path_length);
+  if (length <= min_length_) {
+    return 0;
+  }
+  const double cos = calcGeometry(length).cos;
+  const double active = curves_->active_force_length.calc(length / optimal_length_).value;
+  const double velocity = curves_->force_velocity.calc(path_speed * cos / max_speed_).value;
+  return max_force_ * active * velocity * cos;
+}
+
+std::vector<Muscle> makeMuscles(const std::vector<MuscleSpec>& specs) {
+  struct Built {
+    const MuscleCurvesSpec* spec;
+    std::shared_ptr<const MuscleCurves> curves;
+  };
+  std::vector<Built> built;
+  std::vector<Muscle> muscles;
+  muscles.reserve(specs.size());
+  for (const MuscleSpec& spec : specs) {
+    auto same = std::find_if(built.begin(), built.end(), [&](const Built& b) {
+      return haveSameCurves(*b.spec, spec.curves);
+    });
+    if (same == built.end()) {
+      built.push_back({&spec.curves, std::make_shared<const MuscleCurves>(spec.curves)});
+      same = std::prev(built.end());
+    }
+    muscles.emplace_back(spec, same->curves);
+  }
+  return muscles;
+}
+
+}  // namespace gaitmill

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/data/model_spec.h"
+#include "core/muscle/activation_dynamics.h"
+#include "core/muscle/muscle_curves.h"
+
+namespace gaitmill {
+
+/// Everything about one muscle-tendon unit at one instant. Lengthening is positive, forces pull.
+struct FiberState {
+  double length = 0;                    ///< l [m]
+  double velocity = 0;                  ///< v = dl/dt [m/s]
+  double norm_velocity = 0;             ///< v/(l0M vmax) [-]
+  double cos_pennation = 1;             ///< cos(phi) [-]
+  double tendon_length = 0;             ///< [m]
+  double active_length_multiplier = 0;  ///< fAL [-]
+  double velocity_multiplier = 1;       ///< fV [-]
+  double passive_multiplier = 0;        ///< fPE [-]
+  double active_force = 0;              ///< F0M a fAL fV, along the fiber [N]
+  double passive_force = 0;             ///< F0M (fPE + beta v/(l0M vmax)), along the fiber [N]
+  double tendon_force = 0;              ///< what pulls on the skeleton [N] >= 0
+};
+
+/// Hill-type muscle after Millard et al. (2013), J Biomech Eng 135:021005, with fiber damping and
+/// fixed-height pennation (spec/muscle.md). Massless: along the tendon, fiber and tendon force
+/// balance. Immutable, safe to share between threads; no member allocates or fails once built.
+///
+/// Units of the arguments: activation [-] in [minimum activation, 1]; path_length and fiber_length
+/// [m]; path_speed [m/s]. Fiber lengths below minFiberLength() count as that length.
+class Muscle {
+ public:
+  /// @param curves  those of `spec.curves`, shared with other muscles
+  /// @throws Error kMuscleParameter naming the muscle and the first field out of range
+  Muscle(const MuscleSpec& spec, std::shared_ptr<const MuscleCurves> curves);
+
+  bool hasRigidTendon() const { return rigid_; }
+  double maxIsometricForce() const { return max_force_; }
+  double optimalFiberLength() const { return optimal_length_; }
+  double tendonSlackLength() const { return slack_length_; }
+  double maxFiberSpeed() const { return max_speed_; }  ///< l0M vmax [m/s]
+  double minimumActivation() const { return minimum_activation_; }
+  /// Shortest fiber the model allows: active range or steepest pennation (spec/muscle.md 4).
+  double minFiberLength() const { return min_length_; }
+  const ActivationDynamics& activationDynamics() const { return activation_dynamics_; }
+
+  /// State of a muscle whose tendon is rigid: the fiber follows the path (spec/muscle.md 6.1).
+  FiberState calcRigid(double activation, double path_length, double path_speed) const noexcept;
+
+  /// State of a muscle with an elastic tendon: solves the balance for the fiber velocity
+  ///   [a fAL fV(vN) + fPE + beta vN] cos(phi) = fT      (spec/muscle.md 6.2)
+  /// which always has exactly one root.
+  FiberState calcElastic(double activation, double fiber_length, double path_length) const noexcept;
+
+  /// Tendon force of an elastic tendon [N]; no solve.
+  double calcTendonForce(double fiber_length, double path_length) const noexcept;
+
+  /// The same balance at the end of an implicit integration stage: the velocity v with
+  ///   balance(l, v) = 0,  l = start_length + step v
+  /// For step = 0 this is the velocity at `start_length`. Accurate to round-off. Where the fiber
+  /// would pass its minimum length it stops there: step v = minFiberLength() - start_length.
+  /// @param step   [s] >= 0, at most some 10 ms so that the balance stays monotone in v
+  /// @param guess  [m/s] for speed only
+  struct Stage {
+    double activation;
+    double start_length;
+    double path_length;
+    double step;
+  };
+  double solveStageVelocity(const Stage& stage, double guess) const noexcept;
+
+  /// Fiber length at which an elastic muscle rests: [a fAL + fPE] cos(phi) = fT at zero velocity
+  /// (spec/muscle.md 7). minFiberLength() if the path is too short for any tension.
+  double solveStaticLength(double activation, double path_length) const noexcept;
+
+  /// Active force along the tendon at activation 1 if the tendon were rigid (spec/muscle.md 8,
+  /// with the pennation of the fiber): F0M fAL fV cos(phi). Zero at the minimum fiber length. [N]
+  double calcRigidActiveForce(double path_length, double path_speed) const noexcept;
+
+ private:
+  struct Geometry {
+    double cos = 1;        ///< cos(phi)
+    double cos_slope = 0;  ///< d cos(phi)/dl [1/m]
+    double along = 0;      ///< l cos(phi) [m]
+    double along_slope = 1;
+  };
+  struct Residual {
+    double value;  ///< [-] fiber force along the tendon minus tendon force, over F0M
+    double slope;  ///< d/dvN
+  };
+  Geometry calcGeometry(double fiber_length) const noexcept;
+  double calcRigidLength(double path_length) const noexcept;
+  Residual calcStageResidual(const Stage& stage, double norm_velocity) const noexcept;
+  Residual calcStaticResidual(double activation,
+                              double fiber_length,
+                              double path_length) const noexcept;
+
+  std::shared_ptr<const MuscleCurves> curves_;
+  ActivationDynamics activation_dynamics_;
+  double max_force_ = 0;
+  double optimal_length_ = 0;
+  double slack_length_ = 0;
+  double max_speed_ = 0;
+  double damping_ = 0;
+  double height_ = 0;  ///< h = l0M sin(alpha0) [m]
+  double max_pennation_sin_ = 0;
+  double max_pennation_cos_ = 0;
+  double min_pennation_length_ = 0;  ///< fiber length at the maximum pennation [m]
+  double min_length_ = 0;
+  double minimum_activation_ = 0;
+  bool rigid_ = false;
+};
+
+/// One Muscle per spec, in order. Each distinct set of curves is built once and shared.
+std::vector<Muscle> makeMuscles(const std::vector<MuscleSpec>& specs);
+
+}  // namespace gaitmill

@@ -1,0 +1,294 @@
+#include "core/muscle/muscle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/tolerance.h"
+
+namespace gaitmill {
+namespace {
+
+struct LegMuscle {
+  const char* name;
+  double max_isometric_force;
+  double optimal_fiber_length;
+  double tendon_slack_length;
+  double pennation_at_optimal;
+  bool rigid;
+  double min_fiber_length;
+};
+#include "tests/core/muscle/leg_muscles.inc"
+
+MuscleSpec makeSpec(const LegMuscle& m) {
+  MuscleSpec spec;
+  spec.name = m.name;
+  spec.max_isometric_force = m.max_isometric_force;
+  spec.optimal_fiber_length = m.optimal_fiber_length;
+  spec.tendon_slack_length = m.tendon_slack_length;
+  spec.pennation_at_optimal = m.pennation_at_optimal;
+  spec.tendon = m.rigid ? TendonKind::kRigid : TendonKind::kElastic;
+  return spec;
+}
+
+Muscle makeMuscle(const MuscleSpec& spec) {
+  return Muscle(spec, std::make_shared<const MuscleCurves>(spec.curves));
+}
+
+const LegMuscle& findLegMuscle(const std::string& name) {
+  for (const LegMuscle& muscle : kLegMuscles) {
+    if (name == muscle.name || name == std::string(muscle.name) + "_r" ||
+        name == std::string(muscle.name) + "_l") {
+      return muscle;
+    }
+  }
+  throw std::runtime_error("no muscle " + name);
+}
+
+Muscle makeMuscle(const std::string& name) {
+  return makeMuscle(makeSpec(findLegMuscle(name)));
+}
+
+// Ten printed digits of a quantity of that size.
+double printed(double value, double floor = 1e-10) {
+  return tol(std::max(floor, 6e-10 * std::abs(value)));
+}
+
+// One row of a table of spec/muscle.md 12.
+struct Vector {
+  const char* muscle;
+  double activation, path_length, path_speed, length, pennation;
+  double tendon_length, active, passive, tendon;
+  double norm_velocity, velocity, tendon_force, active_force, passive_force;
+};
+
+TEST(Muscle, ElasticTendonMatchesTestVectors) {
+  const std::vector<Vector> vectors = {
+      // clang-format off
+    {"soleus", 0.6, 0.325, 0.15, 0.04, 0.4218749645, 0.288507088, 0.9691791465, 0, 0.8164959473, 0.8744416473, 1.388666056, 5058.063896, 5002.457517, 541.7028388},
+    {"soleus", 0.01, 0.3, -0.1, 0.03, 0.5775373069, 0.2748657082, 0.775675462, 0, 0, -0.05771724469, 0.7440901194, 0, 35.75492476, -35.75492475},
+    {"gasmed", 0.3, 0.455, -0.25, 0.05, 0.1690267796, 0.4057125524, 0.999928953, 0, 0.2157881109, -0.05643495491, 0.7485574216, 672.2910433, 699.5927999, -17.58239347},
+    {"vaslat", 1, 0.31, 0.4, 0.084, 0.3005521229, 0.2297654529, 0.9213009297, 0, 0.7907129598, -0.0201346211, 0.9007209301, 4071.196962, 4272.627396, -10.3668477},
+    {"recfem", 0.05, 0.52, -0.6, 0.07, 0.2356381259, 0.4519344108, 0.9788095226, 0, 0.06921422257, 0.1092778292, 1.231158729, 151.6996482, 132.060053, 23.95086968},
+    {"tibant", 0.3, 0.3, 0.05, 0.055, 0.2432369174, 0.2466190095, 0.8913302925, 0, 0.3791690062, 0.3950972024, 1.313240182, 465.411929, 431.0312562, 48.49630326},
+    {"glmin3", 0.6, 0.09, -0.05, 0.039, 0.01700572603, 0.05100563916, 0.9996525553, 0.001820785323, 0.01266423288, -0.5777916834, 0.1144138314, 5.658047074, 30.65960308, -25.00073777},
+    {"bflh", 1, 0.42, 0.5, 0.088, 0.1953445232, 0.3336736848, 0.9636562058, 0, 0.3872265131, -0.2147539603, 0.4319065351, 508.499509, 546.5593779, -28.20113801},
+    {"perlong", 0.2, 0.386, 0.02, 0.052, 0.2421145502, 0.3355166752, 0.9997590169, 0.001374617131, 0.09858532593, -0.1288419546, 0.5654198181, 109.9592551, 126.1002259, -12.83745474},
+    {"semiten", 0.01, 0.46, -0.2, 0.215, 0.2161886465, 0.2500047465, 0.9460747308, 0.02033273937, 0.1189756231, 0.883280269, 1.389991987, 70.34970081, 7.775744941, 64.2505767},
+      // clang-format on
+  };
+  for (const Vector& v : vectors) {
+    SCOPED_TRACE(v.muscle);
+    const Muscle muscle = makeMuscle(v.muscle);
+    const FiberState state = muscle.calcElastic(v.activation, v.length, v.path_length);
+    EXPECT_NEAR(std::acos(state.cos_pennation), v.pennation, printed(v.pennation));
+    EXPECT_NEAR(state.tendon_length, v.tendon_length, printed(v.tendon_length));
+    EXPECT_NEAR(state.active_length_multiplier, v.active, printed(v.active));
+    EXPECT_NEAR(state.passive_multiplier, v.passive, printed(v.passive));
+    EXPECT_NEAR(state.norm_velocity, v.norm_velocity, printed(v.norm_velocity));
+    EXPECT_NEAR(state.velocity_multiplier, v.velocity, printed(v.velocity));
+    // The printed forces come from a balance solved to 1e-10 F0M.
+    const double force = tol(2e-10 * muscle.maxIsometricForce() + 6e-7);
+    EXPECT_NEAR(state.tendon_force, v.tendon_force, force);
+    EXPECT_NEAR(state.active_force, v.active_force, force);
+    EXPECT_NEAR(state.passive_force, v.passive_force, force);
+  }
+}
+
+TEST(Muscle, RigidTendonMatchesTestVectors) {
+  struct RigidVector {
+    const char* muscle;
+    double activation, path_length, path_speed, length, pennation, active, passive;
+    double norm_velocity, velocity, active_force, passive_force, tendon_force;
+  };
+  const std::vector<RigidVector> vectors = {
+      // clang-format off
+    {"psoas", 0.6, 0.225, 0.1, 0.1279235377, 0.1966973863, 0.9672041479, 0.01576404465, 0.08389370058, 1.21282438, 1004.216669, 34.46185453, 1018.650059},
+    {"glmax2", 0.3, 0.22, -0.4, 0.1622287781, 0.3550070111, 0.9992131116, 0.003161116827, -0.2388902043, 0.4009469162, 168.9918481, -29.14438391, 131.1271429},
+    {"sart", 0.05, 0.55, 0.7, 0.4261303258, 0.02471649389, 0.9941388925, 0.007997881977, 0.1736442169, 1.260765739, 15.63042379, 6.325691155, 21.94940873},
+    {"addbrev", 1, 0.14, 0, 0.1052143961, 0.1124643981, 0.9998496569, 0.0009400143682, 0, 1, 625.7255845, 0.5882794837, 622.3571528},
+    {"bfsh", 0.5, 0.21, -1.3, 0.1080917724, 0.2697544281, 0.9999234846, 0, -1.135981215, 0, 0, 0, 0},
+    {"grac", 0.01, 0.4, -3, 0.2312960184, 0.1693764226, 0.9999416843, 0.000405393046, -1.298099307, 0, 0, 0, 0},
+    {"sart", 0.5, 0.2, 0.1, 0.10075, 0.1047210781, 0, 0, 0, 1, 0, 0, 0},
+      // clang-format on
+  };
+  for (const RigidVector& v : vectors) {
+    SCOPED_TRACE(v.muscle);
+    const FiberState state =
+        makeMuscle(v.muscle).calcRigid(v.activation, v.path_length, v.path_speed);
+    EXPECT_NEAR(state.length, v.length, printed(v.length));
+    EXPECT_NEAR(std::acos(state.cos_pennation), v.pennation, printed(v.pennation));
+    EXPECT_NEAR(state.active_length_multiplier, v.active, printed(v.active));
+    EXPECT_NEAR(state.passive_multiplier, v.passive, printed(v.passive));
+    EXPECT_NEAR(state.norm_velocity, v.norm_velocity, printed(v.norm_velocity));
+    EXPECT_NEAR(state.velocity_multiplier, v.velocity, printed(v.velocity));
+    EXPECT_NEAR(state.active_force, v.active_force, printed(v.active_force));
+    EXPECT_NEAR(state.passive_force, v.passive_force, printed(v.passive_force));
+    EXPECT_NEAR(state.tendon_force, v.tendon_force, printed(v.tendon_force));
+  }
+}
+
+// Lengths to 2e-9 of the optimal length: the tolerance of the solver that made the table.
+TEST(Muscle, StaticEquilibriumMatchesTestVectors) {
+  struct StaticVector {
+    const char* muscle;
+    double activation, path_length, length, tendon_force;
+  };
+  const std::vector<StaticVector> vectors = {
+      {"soleus", 0.01, 0.3, 0.028034057622, 34.9030846},
+      {"soleus", 0.05, 0.3228365032, 0.0471784071373, 350.6045538},
+      {"soleus", 1, 0.33, 0.0435990264313, 5741.059413},
+      {"gasmed", 0.3, 0.455, 0.0483895065401, 916.3876901},
+      {"vaslat", 0.6, 0.31, 0.0859349200151, 2767.540186},
+      {"recfem", 0.05, 0.52, 0.0707710002341, 105.1287338},
+      {"tibant", 1, 0.3, 0.0510686469504, 1003.370711},
+      {"semiten", 0.01, 0.45, 0.207153331139, 12.17568512},
+      {"perbrev", 0.3, 0.196, 0.0462119743406, 153.5068803},
+      {"piri", 0.6, 0.14, 0.0218410955009, 554.6698214},
+  };
+  for (const StaticVector& v : vectors) {
+    SCOPED_TRACE(v.muscle);
+    const Muscle muscle = makeMuscle(v.muscle);
+    const double length = muscle.solveStaticLength(v.activation, v.path_length);
+    EXPECT_NEAR(length, v.length, tol(2e-9 * muscle.optimalFiberLength()));
+    EXPECT_NEAR(muscle.calcTendonForce(length, v.path_length),
+                v.tendon_force,
+                tol(1e-8 * muscle.maxIsometricForce() + 1e-6));
+  }
+}
+
+TEST(Muscle, MinimumFiberLengthsMatchTable) {
+  for (const LegMuscle& m : kLegMuscles) {
+    EXPECT_NEAR(makeMuscle(m.name).minFiberLength(), m.min_fiber_length, tol(6e-10)) << m.name;
+  }
+}
+
+// At l0M, activation 1, no speed: the tendon carries F0M cos(alpha0) and no passive force.
+TEST(Muscle, RigidTendonAtOptimalLengthHasItsClosedForm) {
+  const LegMuscle& psoas = findLegMuscle("psoas");
+  const double cos = std::cos(psoas.pennation_at_optimal);
+  const double path = psoas.tendon_slack_length + psoas.optimal_fiber_length * cos;
+  const double expected = psoas.max_isometric_force * cos;
+  EXPECT_NEAR(makeMuscle("psoas").calcRigid(1, path, 0).tendon_force, expected, tol(1e-9));
+  EXPECT_NEAR(makeMuscle("psoas").calcRigidActiveForce(path, 0), expected, tol(1e-9));
+}
+
+// Every muscle, activation x length x velocity far beyond what bodies do: the balance is met.
+TEST(Muscle, VelocityBalanceHoldsOnADenseGrid) {
+  for (const LegMuscle& m : kLegMuscles) {
+    SCOPED_TRACE(m.name);
+    MuscleSpec spec = makeSpec(m);
+    spec.tendon = TendonKind::kElastic;
+    const Muscle muscle = makeMuscle(spec);
+    for (const double a : {0.01, 0.05, 0.2, 0.5, 1.0}) {
+      for (double norm = 0.1; norm < 2.2; norm += 0.05) {
+        for (double tendon = 0.9; tendon < 1.12; tendon += 0.01) {
+          const double fiber = std::max(norm * spec.optimal_fiber_length, muscle.minFiberLength());
+          const double path = fiber + tendon * spec.tendon_slack_length;
+          const FiberState s = muscle.calcElastic(a, fiber, path);
+          ASSERT_TRUE(std::isfinite(s.velocity) && std::isfinite(s.tendon_force));
+          const bool stuck = s.velocity == 0 && s.active_force == 0;
+          const double along = (s.active_force + s.passive_force) * s.cos_pennation;
+          ASSERT_TRUE(stuck ||
+                      std::abs(along - s.tendon_force) <=
+                          tol(1e-12) * spec.max_isometric_force * (1 + std::abs(s.norm_velocity)))
+              << a << " " << norm << " " << tendon << " " << along - s.tendon_force;
+        }
+      }
+    }
+  }
+}
+
+TEST(Muscle, StaticEquilibriumIsFoundOnADenseGrid) {
+  for (const LegMuscle& m : kLegMuscles) {
+    SCOPED_TRACE(m.name);
+    MuscleSpec spec = makeSpec(m);
+    spec.tendon = TendonKind::kElastic;
+    const Muscle muscle = makeMuscle(spec);
+    for (const double a : {0.01, 0.05, 0.2, 0.5, 1.0}) {
+      for (double stretch = -0.2; stretch < 2.5; stretch += 0.02) {
+        const double path = spec.tendon_slack_length + stretch * spec.optimal_fiber_length;
+        const double length = muscle.solveStaticLength(a, path);
+        ASSERT_GE(length, muscle.minFiberLength());
+        const FiberState s = muscle.calcElastic(a, length, path);
+        ASSERT_NEAR(s.norm_velocity, 0, length > muscle.minFiberLength() ? tol(1e-9) : 10)
+            << a << " " << stretch;
+      }
+    }
+  }
+}
+
+// The stage velocity satisfies the plain balance at the length it leads to.
+TEST(Muscle, StageVelocityBalancesAtTheEndOfTheStep) {
+  const Muscle soleus = makeMuscle("soleus");
+  for (const double step : {1e-4, 6e-4, 2.5e-3}) {
+    for (const double start : {0.03, 0.044, 0.055}) {
+      const double path = 0.325;
+      const double v = soleus.solveStageVelocity({0.3, start, path, step}, 0);
+      const FiberState at_end = soleus.calcElastic(0.3, start + step * v, path);
+      EXPECT_NEAR(at_end.velocity, v, tol(1e-11));
+    }
+  }
+}
+
+TEST(Muscle, RefusesParametersOutOfRangeByName) {
+  MuscleSpec spec = makeSpec(findLegMuscle("soleus"));
+  spec.fiber_damping = 0;
+  try {
+    makeMuscle(spec);
+    FAIL() << "did not throw";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kMuscleParameter);
+    EXPECT_EQ(error.where().field, "fiber_damping");
+    EXPECT_NE(error.message().find("'soleus'"), std::string::npos);
+  }
+}
+
+TEST(Muscle, MakeMusclesKeepsOrderAndKinds) {
+  const std::vector<Muscle> muscles =
+      makeMuscles({makeSpec(findLegMuscle("psoas")), makeSpec(findLegMuscle("soleus"))});
+  ASSERT_EQ(muscles.size(), 2u);
+  EXPECT_TRUE(muscles[0].hasRigidTendon());
+  EXPECT_FALSE(muscles[1].hasRigidTendon());
+}
+
+class MuscleReference : public SharedDataTest {};
+
+// reference/model_rajagopal2016/fibers.csv: 20 poses x 80 muscles x 4 cases. Path length is not in
+// the table but follows from fiber and tendon; the tendon's own speed too, so only elastic muscles
+// and static cases of rigid ones are complete.
+TEST_F(MuscleReference, FibersMatchTheReferenceModel) {
+  const CsvTable table = readCsv(shared("reference/model_rajagopal2016/fibers.csv"));
+  const int name = table.column("muscle");
+  const int kind = table.column("case");
+  const auto at = [&](std::size_t row, const char* column) {
+    return table.number(static_cast<int>(row), table.column(column));
+  };
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const auto& cells = table.rows[row];
+    const Muscle muscle = makeMuscle(cells[static_cast<std::size_t>(name)]);
+    const double path =
+        at(row, "tendon_length_m") + at(row, "fiber_length_m") * at(row, "cos_pennation");
+    const double a = at(row, "activation");
+    const double rate = muscle.activationDynamics().calcRate(a, 0.5);
+    ASSERT_NEAR(rate, at(row, "activation_rate_at_excitation_0.5"), tol(1e-8));
+    if (cells[static_cast<std::size_t>(kind)] == "static_equilibrium") {
+      const double force = muscle.hasRigidTendon()
+                               ? muscle.calcRigid(a, path, 0).tendon_force
+                               : muscle.calcTendonForce(muscle.solveStaticLength(a, path), path);
+      ASSERT_NEAR(force, at(row, "tendon_force_N"), tol(1e-5) * muscle.maxIsometricForce())
+          << cells[1];
+    } else if (!muscle.hasRigidTendon()) {
+      const FiberState s = muscle.calcElastic(a, at(row, "fiber_length_m"), path);
+      ASSERT_NEAR(s.norm_velocity, at(row, "norm_fiber_velocity"), tol(1e-6)) << cells[1];
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gaitmill
