@@ -1,0 +1,321 @@
+#include "core/io/osim_forces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "core/base/units.h"
+#include "core/io/osim_joints.h"
+
+namespace gaitmill {
+
+namespace {
+
+using Vector3d = Eigen::Vector3d;
+
+// "-Inf" and "Inf" of a document, as ActuatorSpec states them.
+constexpr double kNoLimit = 1e300;
+
+// Documents below this wrote a muscle's lower control limit even where it was the old class default
+// 0, which counts as not stated (spec/model.md 9).
+constexpr int kFirstVersionWithMeantControls = 30513;
+
+constexpr std::array<const char*, 13> kQuadrants = {
+    "all", "x", "+x", "-x", "y", "+y", "-y", "z", "+z", "-z", "X", "Y", "Z"};
+
+double limitedControl(double value) {
+  return std::clamp(value, -kNoLimit, kNoLimit);
+}
+
+WrapCylinderSpec readWrapCylinder(const OsimElement& element) {
+  if (element.type() != "WrapCylinder") {
+    element.fail(ErrorCode::kModelUnsupported,
+                 element.describe() + ": of the wrap objects only cylinders can be simulated here");
+  }
+  WrapCylinderSpec spec;
+  spec.name = element.requireName();
+  spec.rotation = element.vector3("xyz_body_rotation", Vector3d::Zero());
+  spec.translation = element.vector3("translation", Vector3d::Zero());
+  spec.quadrant = element.text("quadrant", "all");
+  if (spec.quadrant.empty() || spec.quadrant == "Unassigned") {
+    spec.quadrant = "all";
+  }
+  if (std::find(kQuadrants.begin(), kQuadrants.end(), spec.quadrant) == kQuadrants.end()) {
+    element.property("quadrant")
+        .fail(ErrorCode::kModelValue,
+              "quadrant is 'all' or an axis with a sign, found '" + spec.quadrant + "'");
+  }
+  spec.radius = element.number("radius", 1.0);
+  spec.length = element.number("length", 1.0);
+  spec.active = element.boolean("active", true);
+  if (!(spec.radius > 0) || !(spec.length > 0)) {
+    element.fail(ErrorCode::kModelValue,
+                 element.describe() + " needs a positive radius and length");
+  }
+  return spec;
+}
+
+/// One number of a muscle with the interval it must lie in.
+struct MuscleField {
+  const char* tag;
+  double minimum;
+  bool minimum_allowed;
+  double fallback;
+};
+
+double readField(const OsimElement& muscle, const MuscleField& field) {
+  const double value = muscle.number(field.tag, field.fallback);
+  const bool high_enough = field.minimum_allowed ? value >= field.minimum : value > field.minimum;
+  if (!high_enough || !std::isfinite(value)) {
+    const OsimElement place = muscle.property(field.tag);
+    (place ? place : muscle)
+        .fail(ErrorCode::kMuscleParameter,
+              muscle.describe() + ": " + field.tag + " is " + std::to_string(value) +
+                  ", expected " + (field.minimum_allowed ? ">= " : "> ") +
+                  std::to_string(field.minimum));
+  }
+  return value;
+}
+
+void readControlLimits(const OsimElement& muscle, MuscleSpec& spec) {
+  // The default is the class's minimum activation, whatever minimum this muscle states.
+  spec.min_control = muscle.number("min_control", 0.01);
+  spec.max_control = muscle.number("max_control", 1.0);
+  if (muscle.document().version() < kFirstVersionWithMeantControls && spec.min_control == 0.0) {
+    spec.min_control = 0.01;
+  }
+  spec.min_control = limitedControl(spec.min_control);
+  spec.max_control = limitedControl(spec.max_control);
+}
+
+/// Class defaults of Millard2012EquilibriumMuscle: spec/muscle.md 2.
+void readMuscleParameters(const OsimElement& muscle, MuscleSpec& spec) {
+  spec.max_isometric_force = readField(muscle, {"max_isometric_force", 0, false, 1000});
+  spec.optimal_fiber_length = readField(muscle, {"optimal_fiber_length", 0, false, 0.1});
+  spec.tendon_slack_length = readField(muscle, {"tendon_slack_length", 0, false, 0.2});
+  spec.pennation_at_optimal = readField(muscle, {"pennation_angle_at_optimal", 0, true, 0});
+  spec.max_contraction_velocity = readField(muscle, {"max_contraction_velocity", 0, false, 10});
+  spec.fiber_damping = readField(muscle, {"fiber_damping", 0, true, 0.1});
+  spec.activation_time_constant = readField(muscle, {"activation_time_constant", 0, false, 0.010});
+  spec.deactivation_time_constant =
+      readField(muscle, {"deactivation_time_constant", 0, false, 0.040});
+  spec.minimum_activation = readField(muscle, {"minimum_activation", 0, true, 0.01});
+  spec.default_activation = readField(muscle, {"default_activation", 0, true, 0.05});
+  spec.default_fiber_length = readField(muscle, {"default_fiber_length", 0, false, 0.1});
+  spec.maximum_pennation = readField(muscle, {"maximum_pennation_angle", 0, false, std::acos(0.1)});
+  if (spec.pennation_at_optimal >= kPi / 2) {
+    muscle.property("pennation_angle_at_optimal")
+        .fail(ErrorCode::kMuscleParameter,
+              muscle.describe() +
+                  ": pennation_angle_at_optimal must be below a right angle, in "
+                  "radians");
+  }
+  spec.tendon =
+      muscle.boolean("ignore_tendon_compliance", false) ? TendonKind::kRigid : TendonKind::kElastic;
+  if (muscle.boolean("ignore_activation_dynamics", false)) {
+    muscle.fail(ErrorCode::kModelUnsupported,
+                muscle.describe() + ": muscles without activation dynamics cannot be simulated");
+  }
+}
+
+/// Whether the last three, optional properties of a curve are stated. One or two of three is an
+/// error in the format.
+bool hasAllOptional(const OsimElement& curve, std::initializer_list<const char*> tags) {
+  const auto stated =
+      std::count_if(tags.begin(), tags.end(), [&](const char* tag) { return curve.has(tag); });
+  if (stated != 0 && stated != static_cast<std::ptrdiff_t>(tags.size())) {
+    curve.fail(
+        ErrorCode::kMuscleParameter,
+        curve.describe() + " states some of its optional properties; all or none are needed");
+  }
+  return stated != 0;
+}
+
+void readActiveCurve(const OsimElement& curve, MuscleCurvesSpec& spec) {
+  spec.active_min_length = curve.number("min_norm_active_fiber_length", 0.47 - 0.0259);
+  spec.active_transition_length = curve.number("transition_norm_fiber_length", 0.73);
+  spec.active_max_length = curve.number("max_norm_active_fiber_length", 1.8123);
+  spec.active_shallow_slope = curve.number("shallow_ascending_slope", 0.8616);
+  spec.active_minimum_value = curve.number("minimum_value", 0.1);
+}
+
+void readForceVelocityCurve(const OsimElement& curve, MuscleCurvesSpec& spec) {
+  spec.concentric_slope_at_vmax = curve.number("concentric_slope_at_vmax", 0);
+  spec.concentric_slope_near_vmax = curve.number("concentric_slope_near_vmax", 0.25);
+  spec.isometric_slope = curve.number("isometric_slope", 5);
+  spec.eccentric_slope_at_vmax = curve.number("eccentric_slope_at_vmax", 0);
+  spec.eccentric_slope_near_vmax = curve.number("eccentric_slope_near_vmax", 0.15);
+  spec.max_eccentric_force = curve.number("max_eccentric_velocity_force_multiplier", 1.4);
+  spec.concentric_curviness = curve.number("concentric_curviness", 0.6);
+  spec.eccentric_curviness = curve.number("eccentric_curviness", 0.9);
+}
+
+void readPassiveCurve(const OsimElement& curve, MuscleCurvesSpec& spec) {
+  spec.passive_strain_at_zero_force = curve.number("strain_at_zero_force", 0);
+  spec.passive_strain_at_one_force = curve.number("strain_at_one_norm_force", 0.7);
+  const double automatic =
+      2.0 / (spec.passive_strain_at_one_force - spec.passive_strain_at_zero_force);
+  hasAllOptional(curve, {"stiffness_at_low_force", "stiffness_at_one_norm_force", "curviness"});
+  spec.passive_stiffness_at_low_force = curve.number("stiffness_at_low_force", 0.2);
+  spec.passive_stiffness_at_one_force = curve.number("stiffness_at_one_norm_force", automatic);
+  spec.passive_curviness = curve.number("curviness", 0.75);
+}
+
+void readTendonCurve(const OsimElement& curve, MuscleCurvesSpec& spec) {
+  spec.tendon_strain_at_one_force = curve.number("strain_at_one_norm_force", 0.049);
+  const double automatic = 1.375 / spec.tendon_strain_at_one_force;
+  hasAllOptional(curve, {"stiffness_at_one_norm_force", "norm_force_at_toe_end", "curviness"});
+  spec.tendon_stiffness_at_one_force = curve.number("stiffness_at_one_norm_force", automatic);
+  spec.tendon_force_at_toe_end = curve.number("norm_force_at_toe_end", 2.0 / 3.0);
+  spec.tendon_curviness = curve.number("curviness", 0.5);
+}
+
+PathPointSpec readPathPoint(const OsimElement& point, const OsimFrames& frames) {
+  if (point.type() != "PathPoint") {
+    point.fail(ErrorCode::kModelUnsupported,
+               point.describe() + ": of the path points only fixed ones can be simulated here");
+  }
+  const OsimElement frame = point.socket("parent_frame", {"body"});
+  if (!frame) {
+    point.fail(ErrorCode::kModelElement, point.describe() + " names no parent frame");
+  }
+  return frames.resolvePoint(frame, point.vector3("location", Vector3d::Zero()));
+}
+
+PathWrapSpec readPathWrap(const OsimElement& wrap, const std::vector<std::string>& wrap_objects) {
+  PathWrapSpec spec;
+  spec.wrap_object = wrap.text("wrap_object");
+  if (std::find(wrap_objects.begin(), wrap_objects.end(), spec.wrap_object) == wrap_objects.end()) {
+    const OsimElement place = wrap.property("wrap_object");
+    (place ? place : wrap)
+        .fail(ErrorCode::kModelReference, "there is no wrap object '" + spec.wrap_object + "'");
+  }
+  if (const OsimElement range = wrap.property("range")) {
+    const std::vector<double> ends = range.ownNumbers(2);
+    if (std::abs(ends[0]) > 1e6 || std::abs(ends[1]) > 1e6) {
+      range.fail(ErrorCode::kModelValue, "a path wrap's range counts path points");
+    }
+    spec.first_point = static_cast<int>(ends[0]);
+    spec.last_point = static_cast<int>(ends[1]);
+  }
+  return spec;
+}
+
+void readPath(const OsimElement& muscle,
+              const OsimFrames& frames,
+              const std::vector<std::string>& wrap_objects,
+              MuscleSpec& spec) {
+  const OsimElement path = muscle.objectProperty("path", {"GeometryPath"});
+  if (!path || path.type() != "GeometryPath") {
+    (path ? path : muscle)
+        .fail(path ? ErrorCode::kModelUnsupported : ErrorCode::kModelElement,
+              muscle.describe() + " has no GeometryPath");
+  }
+  for (const OsimElement& point : path.objectsOf("PathPointSet")) {
+    spec.path.push_back(readPathPoint(point, frames));
+  }
+  if (spec.path.size() < 2) {
+    path.fail(ErrorCode::kModelElement,
+              muscle.describe() + " has " + std::to_string(spec.path.size()) +
+                  " path points, expected at least 2");
+  }
+  for (const OsimElement& wrap : path.objectsOf("PathWrapSet")) {
+    spec.wraps.push_back(readPathWrap(wrap, wrap_objects));
+  }
+}
+
+void readCoordinateActuator(const OsimElement& actuator,
+                            const std::vector<JointSpec>& joints,
+                            ActuatorSpec& spec) {
+  spec.kind = ActuatorSpec::Kind::kCoordinate;
+  spec.coordinate = lastComponent(actuator.text("coordinate"));
+  const OsimElement place = actuator.property("coordinate");
+  requireCoordinate(place ? place : actuator, spec.coordinate, joints);
+}
+
+void readPointActuator(const OsimElement& actuator, const OsimFrames& frames, ActuatorSpec& spec) {
+  spec.kind = ActuatorSpec::Kind::kPoint;
+  const OsimElement body = actuator.socket("body", {"body"});
+  spec.body = frames.resolveBody(body ? body : actuator);
+  spec.point = actuator.vector3("point", Vector3d::Zero());
+  spec.direction = actuator.vector3("direction", Vector3d::UnitX());
+  spec.direction_in_ground = actuator.boolean("force_is_global", false);
+  if (actuator.boolean("point_is_global", false)) {
+    actuator.property("point_is_global")
+        .fail(ErrorCode::kModelUnsupported,
+              actuator.describe() + ": a point fixed in ground cannot be simulated here");
+  }
+}
+
+void readTorqueActuator(const OsimElement& actuator, const OsimFrames& frames, ActuatorSpec& spec) {
+  spec.kind = ActuatorSpec::Kind::kTorque;
+  const OsimElement body = actuator.socket("bodyA", {"bodyA"});
+  spec.body = frames.resolveBody(body ? body : actuator);
+  const OsimElement reaction = actuator.socket("bodyB", {"bodyB"});
+  const std::string name = reaction ? reaction.ownText() : "";
+  if (!name.empty() && name != "Unassigned") {
+    spec.reaction_body = frames.resolveBody(reaction);
+  }
+  spec.direction = actuator.vector3("axis", Vector3d::UnitZ());
+  spec.direction_in_ground = actuator.boolean("torque_is_global", true);
+}
+
+}  // namespace
+
+std::vector<WrapCylinderSpec> readWrapCylinders(const OsimElement& owner) {
+  std::vector<WrapCylinderSpec> cylinders;
+  for (const OsimElement& element : owner.objectsOf("WrapObjectSet")) {
+    cylinders.push_back(readWrapCylinder(element));
+  }
+  return cylinders;
+}
+
+MuscleSpec readMuscle(const OsimElement& muscle,
+                      const OsimFrames& frames,
+                      const std::vector<std::string>& wrap_objects) {
+  MuscleSpec spec;
+  spec.name = muscle.requireName();
+  readMuscleParameters(muscle, spec);
+  readControlLimits(muscle, spec);
+  readActiveCurve(muscle.property("ActiveForceLengthCurve"), spec.curves);
+  readForceVelocityCurve(muscle.property("ForceVelocityCurve"), spec.curves);
+  readPassiveCurve(muscle.property("FiberForceLengthCurve"), spec.curves);
+  readTendonCurve(muscle.property("TendonForceLengthCurve"), spec.curves);
+  readPath(muscle, frames, wrap_objects, spec);
+  return spec;
+}
+
+bool isActuator(const OsimElement& force) {
+  constexpr std::array<std::string_view, 5> kTypes = {
+      "CoordinateActuator", "PointActuator", "TorqueActuator", "GeneralizedForce", "Force"};
+  return std::find(kTypes.begin(), kTypes.end(), force.type()) != kTypes.end();
+}
+
+ActuatorSpec readActuator(const OsimElement& actuator,
+                          const OsimFrames& frames,
+                          const std::vector<JointSpec>& joints) {
+  ActuatorSpec spec;
+  spec.name = actuator.requireName();
+  if (actuator.type() == "CoordinateActuator" || actuator.type() == "GeneralizedForce") {
+    readCoordinateActuator(actuator, joints, spec);
+  } else if (actuator.type() == "TorqueActuator") {
+    readTorqueActuator(actuator, frames, spec);
+  } else {
+    readPointActuator(actuator, frames, spec);
+  }
+  if (spec.direction.norm() == 0) {
+    actuator.fail(ErrorCode::kModelValue, actuator.describe() + " has no direction");
+  }
+  spec.optimal_force = actuator.number("optimal_force", 1.0);
+  spec.min_control = limitedControl(actuator.number("min_control", -kNoLimit));
+  spec.max_control = limitedControl(actuator.number("max_control", kNoLimit));
+  return spec;
+}
+
+bool isApplied(const OsimElement& force) {
+  return force.has("appliesForce") ? force.boolean("appliesForce", true)
+                                   : !force.boolean("isDisabled", false);
+}
+
+}  // namespace gaitmill

@@ -1,0 +1,284 @@
+#include "core/io/osim_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <string_view>
+
+#include "core/io/osim_element.h"
+#include "core/io/osim_forces.h"
+#include "core/io/osim_frames.h"
+#include "core/io/osim_joints.h"
+
+namespace gaitmill {
+
+namespace {
+
+using Vector3d = Eigen::Vector3d;
+
+bool isContactForce(const OsimElement& force) {
+  constexpr std::array<std::string_view, 3> kTypes = {
+      "SmoothSphereHalfSpaceForce", "HuntCrossleyForce", "ElasticFoundationForce"};
+  return std::find(kTypes.begin(), kTypes.end(), force.type()) != kTypes.end();
+}
+
+/// Reads one document, in the order in which references point: bodies, joints, then what is
+/// attached to them.
+class ModelReader {
+ public:
+  ModelReader(const OsimElement& model, std::vector<std::string>* warnings)
+      : model_(model), warnings_(warnings) {}
+
+  ModelSpec read() {
+    readHeader();
+    readBodies();
+    readJoints();
+    readConstraints();
+    readMarkers();
+    readForces();
+    readGroups();
+    return std::move(spec_);
+  }
+
+ private:
+  void readHeader();
+  void readBodies();
+  void readBody(const OsimElement& element);
+  void readJoints();
+  void readConstraints();
+  void readMarkers();
+  void readForces();
+  void readForce(const OsimElement& force);
+  void readGroups();
+  void addWraps(const OsimElement& owner, std::vector<WrapCylinderSpec>& wraps);
+  void requireNew(std::set<std::string>& names, const OsimElement& element);
+  void warn(const OsimElement& element, const std::string& sentence);
+
+  OsimElement model_;
+  std::vector<std::string>* warnings_;
+  ModelSpec spec_;
+  OsimFrames frames_;
+  std::vector<OsimElement> body_elements_;
+  std::vector<std::string> wrap_objects_;
+  std::set<std::string> force_names_;
+};
+
+void ModelReader::warn(const OsimElement& element, const std::string& sentence) {
+  if (warnings_ != nullptr) {
+    warnings_->push_back("line " + std::to_string(element.where().line) + ": " +
+                         element.describe() + " " + sentence);
+  }
+}
+
+void ModelReader::requireNew(std::set<std::string>& names, const OsimElement& element) {
+  const std::string name = element.requireName();
+  if (!names.insert(name).second) {
+    element.fail(
+        ErrorCode::kModelDuplicateName,
+        "there is already a " + std::string(element.type()) + " or like object '" + name + "'");
+  }
+}
+
+void ModelReader::readHeader() {
+  spec_.name = model_.nameOr("");
+  spec_.credits = model_.text("credits");
+  spec_.gravity = model_.vector3("gravity", Vector3d(0, -9.80665, 0));
+}
+
+std::array<double, 6> readInertia(const OsimElement& body) {
+  std::array<double, 6> inertia = {};
+  if (const OsimElement stated = body.property("inertia")) {
+    const std::vector<double> numbers = stated.ownNumbers(6);
+    std::copy(numbers.begin(), numbers.end(), inertia.begin());
+  } else {
+    constexpr std::array<const char*, 6> kTags = {
+        "inertia_xx", "inertia_yy", "inertia_zz", "inertia_xy", "inertia_xz", "inertia_yz"};
+    const bool any =
+        std::any_of(kTags.begin(), kTags.end(), [&](const char* tag) { return body.has(tag); });
+    for (std::size_t i = 0; any && i < kTags.size(); ++i) {
+      inertia[i] = body.number(kTags[i], i < 3 ? 1.0 : 0.0);
+    }
+  }
+  if (inertia[0] < 0 || inertia[1] < 0 || inertia[2] < 0) {
+    body.fail(ErrorCode::kModelValue, body.describe() + " has a negative moment of inertia");
+  }
+  return inertia;
+}
+
+void ModelReader::addWraps(const OsimElement& owner, std::vector<WrapCylinderSpec>& wraps) {
+  for (const WrapCylinderSpec& wrap : readWrapCylinders(owner)) {
+    if (std::find(wrap_objects_.begin(), wrap_objects_.end(), wrap.name) != wrap_objects_.end()) {
+      owner.property("WrapObjectSet")
+          .fail(ErrorCode::kModelDuplicateName,
+                "there is already a wrap object '" + wrap.name + "'");
+    }
+    wrap_objects_.push_back(wrap.name);
+    wraps.push_back(wrap);
+  }
+}
+
+void ModelReader::readBody(const OsimElement& element) {
+  const std::string name = element.requireName();
+  if (name == "ground") {  // documents below 30501 list ground among the bodies
+    addWraps(element, spec_.ground_wrap_cylinders);
+    return;
+  }
+  frames_.addBody(element, name);
+  BodySpec body;
+  body.name = name;
+  body.mass = element.requireNumber("mass");
+  if (!(body.mass >= 0) || !std::isfinite(body.mass)) {
+    element.property("mass").fail(ErrorCode::kModelValue, "the mass of a body cannot be negative");
+  }
+  body.mass_center = element.vector3("mass_center", Vector3d::Zero());
+  body.inertia = readInertia(element);
+  addWraps(element, body.wrap_cylinders);
+  frames_.addOffsetFrames(name, element.property("components").children());
+  body_elements_.push_back(element);
+  spec_.bodies.push_back(std::move(body));
+}
+
+void ModelReader::readBodies() {
+  if (const OsimElement ground = model_.property("Ground")) {
+    addWraps(ground, spec_.ground_wrap_cylinders);
+  }
+  for (const OsimElement& element : model_.objectsOf("BodySet")) {
+    if (element.type() != "Body") {
+      element.fail(ErrorCode::kModelUnsupported, element.describe() + " is not a rigid body");
+    }
+    readBody(element);
+  }
+  if (spec_.bodies.empty()) {
+    model_.fail(ErrorCode::kModelElement, "the model has no bodies");
+  }
+}
+
+void ModelReader::readJoints() {
+  const std::vector<OsimJoint> joints = collectJoints(model_);
+  std::set<std::string> names;
+  for (const OsimJoint& joint : joints) {
+    requireNew(names, joint.element);
+    frames_.addOffsetFrames(joint.element.requireName(),
+                            joint.element.property("frames").children());
+  }
+  std::set<std::string> coordinates;
+  for (const OsimJoint& joint : joints) {
+    spec_.joints.push_back(readJoint(joint, frames_));
+    for (const CoordinateSpec& coordinate : spec_.joints.back().coordinates) {
+      if (!coordinates.insert(coordinate.name).second) {
+        joint.element.fail(ErrorCode::kModelDuplicateName,
+                           "there is already a coordinate '" + coordinate.name + "'");
+      }
+    }
+  }
+  requireTree(body_elements_, joints, spec_.joints);
+}
+
+void ModelReader::readConstraints() {
+  std::set<std::string> names;
+  for (const OsimElement& element : model_.objectsOf("ConstraintSet")) {
+    if (element.type() == "CoordinateCouplerConstraint") {
+      requireNew(names, element);
+      spec_.couplers.push_back(readCoupler(element, spec_.joints));
+      continue;
+    }
+    const bool enforced = element.has("isEnforced") ? element.boolean("isEnforced", true)
+                                                    : !element.boolean("isDisabled", false);
+    if (enforced) {
+      element.fail(
+          ErrorCode::kModelUnsupported,
+          element.describe() + ": of the constraints only coordinate couplers can be read");
+    }
+    warn(element, "is not enforced and was left out");
+  }
+}
+
+MarkerSpec readMarker(const OsimElement& element, const OsimFrames& frames) {
+  const OsimElement frame = element.socket("parent_frame", {"body"});
+  if (!frame) {
+    element.fail(ErrorCode::kModelElement, element.describe() + " names no parent frame");
+  }
+  const PathPointSpec point =
+      frames.resolvePoint(frame, element.vector3("location", Vector3d::Zero()));
+  return {element.requireName(), point.body, point.location, element.boolean("fixed", false)};
+}
+
+void ModelReader::readMarkers() {
+  std::set<std::string> names;
+  for (const OsimElement& element : model_.objectsOf("MarkerSet")) {
+    requireNew(names, element);
+    spec_.markers.push_back(readMarker(element, frames_));
+  }
+}
+
+void ModelReader::readForce(const OsimElement& force) {
+  if (!isApplied(force)) {
+    warn(force, "is switched off in the document and was left out");
+  } else if (force.type() == "Millard2012EquilibriumMuscle") {
+    requireNew(force_names_, force);
+    spec_.muscles.push_back(readMuscle(force, frames_, wrap_objects_));
+  } else if (isActuator(force)) {
+    requireNew(force_names_, force);
+    spec_.actuators.push_back(readActuator(force, frames_, spec_.joints));
+  } else if (isContactForce(force)) {
+    warn(force, "was left out: the measured ground reaction takes its place");
+  } else {
+    force.fail(ErrorCode::kModelUnsupported,
+               force.describe() + ": forces of this type cannot be simulated here");
+  }
+}
+
+void ModelReader::readForces() {
+  for (const OsimElement& force : model_.objectsOf("ForceSet")) {
+    readForce(force);
+  }
+}
+
+void ModelReader::readGroups() {
+  for (const OsimElement& group : model_.property("ForceSet").property("groups").children()) {
+    MuscleGroupSpec spec{group.requireName(), group.words("members")};
+    for (const std::string& member : spec.members) {
+      if (force_names_.count(member) == 0) {
+        group.property("members").fail(ErrorCode::kModelReference,
+                                       "there is no force '" + member + "'");
+      }
+    }
+    spec_.muscle_groups.push_back(std::move(spec));
+  }
+}
+
+}  // namespace
+
+ModelSpec readOsim(std::string_view bytes,
+                   const std::string& file_name,
+                   std::vector<std::string>* warnings) {
+  OsimDocument document(bytes, file_name);
+  const OsimElement model = document.root("Model");
+  document.readPrototypes(model);
+  return ModelReader(model, warnings).read();
+}
+
+std::vector<MarkerSpec> readMarkerSet(std::string_view bytes,
+                                      const std::string& file_name,
+                                      const ModelSpec& spec) {
+  OsimDocument document(bytes, file_name);
+  const OsimElement set = document.root("MarkerSet");
+  document.readPrototypes(set);
+  OsimFrames frames;
+  for (const BodySpec& body : spec.bodies) {
+    frames.addBody(set, body.name);
+  }
+  std::vector<MarkerSpec> markers;
+  std::set<std::string> names;
+  for (const OsimElement& element : set.property("objects").children()) {
+    markers.push_back(readMarker(element, frames));
+    if (!names.insert(markers.back().name).second) {
+      element.fail(ErrorCode::kModelDuplicateName,
+                   "there is already a marker '" + markers.back().name + "'");
+    }
+  }
+  return markers;
+}
+
+}  // namespace gaitmill

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/data/model_spec.h"
+
+namespace gaitmill {
+
+/// Reads a model document of version 30000 to 40600: bodies, joints, coordinates, couplers,
+/// markers, Millard muscles with cylinder wraps, ideal actuators and muscle groups, with the
+/// inherited defaults, sockets and older layouts of spec/model.md. SI units and radians, full
+/// precision of the text (OpenSim rounds offsets and inertias of documents below 30505 to six
+/// digits; this reader does not).
+///
+/// What would change the mechanics but cannot be simulated is refused: other muscle types, moving
+/// or conditional path points, wrap objects other than cylinders, further forces and constraints,
+/// prescribed coordinates. Two things are left out with a warning: forces that the document itself
+/// switches off, and contact with the floor, whose place the measured ground reaction takes.
+/// Meshes, colours, probes and controllers are ignored.
+///
+/// @param file_name  for error messages only; nothing is opened
+/// @param warnings   if given, one sentence per thing left out is appended
+/// @throws Error kModelXml, kModelVersion, kModelElement, kModelValue, kModelReference,
+/// kModelDuplicateName, kModelTopology, kModelUnsupported, kMuscleParameter, kFileEmpty,
+/// kFileNotTheData; all with line and column
+ModelSpec readOsim(std::string_view bytes,
+                   const std::string& file_name,
+                   std::vector<std::string>* warnings = nullptr);
+
+/// Markers of a marker-set document (root child <MarkerSet>) for the bodies of `spec`.
+/// @throws Error as readOsim
+std::vector<MarkerSpec> readMarkerSet(std::string_view bytes,
+                                      const std::string& file_name,
+                                      const ModelSpec& spec);
+
+}  // namespace gaitmill
