@@ -33,10 +33,12 @@ class NaturalSpline {
   void evaluate(double t, Eigen::Ref<Eigen::VectorXd> value) const;
 
  private:
+  int findInterval(double t) const;
+
   std::vector<double> time_;
   int columns_ = 0;
   int degree_ = 0;
-  /// Taylor coefficients per interval: row-major (intervals x (degree+1) x columns).
+  /// Taylor coefficients about each knot: row-major (knots x (degree+1) x columns).
   std::vector<double> coefficients_;
 };
 
