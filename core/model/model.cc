@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include "core/base/error.h"
 #include "core/math/scalar_function.h"
 #include "core/model/multibody_tree.h"

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 
+#include <Eigen/Geometry>
 #include <Simbody.h>
 
 #include "core/base/error.h"
