@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/data/ground_reaction.h"
+#include "core/io/table_reader.h"
+
+namespace gaitmill {
+
+/// Tells on which body a family of columns acts, for instance {"ground_force_2", "calcn_l"}.
+struct PlateAssignment {
+  std::string family;  ///< as ExternalForce::name
+  std::string body;
+};
+
+struct GrfOptions {
+  /// Below this vertical force the plate counts as unloaded [N]. 0 takes every sample as it is.
+  double threshold = 20.0;
+  std::string right_body = "calcn_r";
+  std::string left_body = "calcn_l";
+  /// Needed for plates that are only numbered; where given, families that are not listed are left
+  /// out.
+  std::vector<PlateAssignment> plates;
+};
+
+/// Families of force columns in a table, as ExternalForce::name: the labels without the axis and
+/// without the letter v, "ground_force_r" for ground_force_r_vx. Recognised (spec/formats.md 3.1):
+///   [S_]ground_force_[S_]vx,vy,vz   S = r, l, right, left, a number, or nothing
+///   with points  [S_]ground_force_[S_]px..  and torques  [S_]ground_torque_[S_]x..  or
+///   [S_]ground_moment_[S_]mx.. or [S_]ground_force_[S_]mx..
+///   f1_1,f1_2,f1_3 with p1_1.. and m1_1..
+std::vector<std::string> findForceFamilies(const std::vector<std::string>& labels);
+
+/// Ground reactions out of a table: one ExternalForce per family that a foot uses, in the order of
+/// the columns. Side r, R_ or no side at all is the right foot; l, L_ or the number 1 in front
+/// ("1_ground_force_vx", beside an unnumbered family) is the left.
+///
+/// Where |vertical force| < threshold, force and torque become exactly zero; the point stays as the
+/// file has it and means nothing. Torque columns may be absent (zero), points may not.
+/// @throws Error kGrfColumns (no family, a family without point, numbered plates without
+/// assignment, an assignment that names no family), kGrfValue (a force or, on a loaded plate, a
+/// point that is not a number), kGrfUnits (the numbers cannot be N, m, N.m on the subject with Y
+/// up: the vertical force points down, exceeds 100 kN, never reaches the threshold, points lie
+/// beyond 50 m, torques exceed 500 N.m)
+GroundReaction readGroundReaction(const TableFile& file, const GrfOptions& options = {});
+
+}  // namespace gaitmill
