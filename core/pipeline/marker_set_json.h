@@ -1,0 +1,14 @@
+#pragma once
+
+#include "core/data/marker_set.h"
+#include "core/pipeline/pipeline.h"
+
+namespace gaitmill {
+
+/// Reads a marker set document (models/marker_sets/*.json). Fields wear their units: location_m,
+/// time_range_s, value_deg or value_m, min_deg ... Everything but "name" may be absent.
+/// @throws Error kSettingsJson (with line and column), kSettingsUnknownField (with the nearest
+///   name), kSettingsValue, kInputMissing (with the path of the field)
+MarkerSetSpec readMarkerSet(const InputFile& file);
+
+}  // namespace gaitmill
