@@ -1,0 +1,167 @@
+#include "core/scale/scale_factors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "core/base/error.h"
+
+namespace gaitmill {
+
+namespace {
+
+std::optional<Eigen::Vector3d> findInModel(const Model& model,
+                                           const ModelState& state,
+                                           const std::string& name) {
+  const int index = model.spec().findMarker(name);
+  if (index < 0) {
+    return std::nullopt;
+  }
+  const MarkerSpec& marker = model.spec().markers[static_cast<std::size_t>(index)];
+  return state.pose(model.getBody(marker.body)) * marker.location;
+}
+
+/// Measures one pair; returns what is wrong, or nothing.
+std::string measure(const Model& model,
+                    const ModelState& state,
+                    const MarkerTrajectories& trial,
+                    const ScaleOptions& options,
+                    PairResult& pair) {
+  for (const std::string& name : {pair.first, pair.second}) {
+    if (!trial.findMarker(name)) {
+      return "marker '" + name + "' is not in the static trial";
+    }
+    if (model.spec().findMarker(name) < 0) {
+      return "marker '" + name + "' is not in the model";
+    }
+  }
+  const int a = *trial.findMarker(pair.first);
+  const int b = *trial.findMarker(pair.second);
+  const FrameRange rows = findFrameRange(trial.time, options.marker_set.measurement_range);
+  double sum = 0;
+  int visible = 0;
+  for (int row = rows.first; row <= rows.last; ++row) {
+    const double distance = (trial.position(row, a) - trial.position(row, b)).norm();
+    visible += std::isfinite(distance) ? 1 : 0;
+    sum += std::isfinite(distance) ? distance : 0.0;
+  }
+  pair.visible_fraction = static_cast<double>(visible) / (rows.last - rows.first + 1);
+  if (visible == 0 || pair.visible_fraction < options.min_visible_fraction) {
+    return "markers '" + pair.first + "' and '" + pair.second +
+           "' are visible together in too few frames";
+  }
+  pair.measured = sum / visible;
+  pair.in_model =
+      (*findInModel(model, state, pair.first) - *findInModel(model, state, pair.second)).norm();
+  if (pair.in_model <= 0) {
+    return "markers '" + pair.first + "' and '" + pair.second + "' coincide in the model";
+  }
+  pair.factor = pair.measured / pair.in_model;
+  return {};
+}
+
+MeasurementResult measureAll(const Model& model,
+                             const MarkerTrajectories& trial,
+                             const ScaleOptions& options,
+                             const MeasurementSpec& spec,
+                             std::vector<std::string>& warnings) {
+  ModelState state(model);
+  state.setPose(model.defaultPose());
+  MeasurementResult result{spec.name, -1, {}};
+  double sum = 0;
+  int count = 0;
+  for (const MarkerPair& names : spec.pairs) {
+    PairResult pair{names.first, names.second};
+    const std::string fault = measure(model, state, trial, options, pair);
+    require(fault.empty() || !spec.required,
+            ErrorCode::kInputMarkers,
+            "measurement '" + spec.name + "': " + fault,
+            {{}, 0, 0, names.first});
+    if (!fault.empty()) {
+      warnings.push_back("measurement '" + spec.name + "' leaves a pair out: " + fault);
+    }
+    sum += fault.empty() ? pair.factor : 0.0;
+    count += fault.empty() ? 1 : 0;
+    result.pairs.push_back(std::move(pair));
+  }
+  result.factor = count > 0 ? sum / count : -1;
+  return result;
+}
+
+BodyScale& getScale(const Model& model, const std::string& body, ScaleFactors& factors) {
+  return factors.bodies[static_cast<std::size_t>(model.getBody(body).value())];
+}
+
+void applyMeasurements(const Model& model,
+                       const MarkerTrajectories& trial,
+                       const ScaleOptions& options,
+                       ScaleFactors& factors) {
+  for (const MeasurementSpec& spec : options.marker_set.measurements) {
+    MeasurementResult result = measureAll(model, trial, options, spec, factors.warnings);
+    for (const std::string& body : spec.bodies) {
+      BodyScale& scale = getScale(model, body, factors);
+      for (int axis = 0; axis < 3; ++axis) {
+        if (spec.axes[static_cast<std::size_t>(axis)] && result.factor > 0) {
+          scale.factors[axis] = result.factor;
+        }
+      }
+    }
+    factors.measurements.push_back(std::move(result));
+  }
+}
+
+void applyManual(const Model& model, const MarkerSetSpec& set, ScaleFactors& factors) {
+  for (const ManualScaleSpec& manual : set.manual) {
+    for (const std::string& body : manual.bodies) {
+      getScale(model, body, factors).factors = manual.factors;
+    }
+  }
+}
+
+void warnOfUnusualFactors(const ScaleOptions& options, ScaleFactors& factors) {
+  for (const BodyScale& scale : factors.bodies) {
+    if (scale.factors.minCoeff() < options.warn_factor_min ||
+        scale.factors.maxCoeff() > options.warn_factor_max) {
+      factors.warnings.push_back("body '" + scale.body + "' is scaled by " +
+                                 std::to_string(scale.factors.x()) + ", " +
+                                 std::to_string(scale.factors.y()) + ", " +
+                                 std::to_string(scale.factors.z()) + ", which is unusual");
+    }
+  }
+}
+
+}  // namespace
+
+FrameRange findFrameRange(const std::vector<double>& time, const TimeRange& range) {
+  require(!time.empty() && range.start <= time.back() && range.end >= time.front(),
+          ErrorCode::kInputTimeRange,
+          "no frame of the static trial lies in the time range");
+  const auto after_start = std::upper_bound(time.begin(), time.end(), range.start);
+  const auto at_end = std::lower_bound(time.begin(), time.end(), range.end);
+  const int count = static_cast<int>(time.size());
+  return {std::max(0, static_cast<int>(std::distance(time.begin(), after_start)) - 1),
+          std::min(count - 1, static_cast<int>(std::distance(time.begin(), at_end)))};
+}
+
+ScaleFactors calcScaleFactors(const Model& model,
+                              const MarkerTrajectories& trial,
+                              const ScaleOptions& options) {
+  ScaleFactors factors;
+  for (const BodySpec& body : model.spec().bodies) {
+    factors.bodies.push_back({body.name, Eigen::Vector3d::Ones()});
+  }
+  if (options.marker_set.order == ScalingOrder::kManualThenMeasurements) {
+    applyManual(model, options.marker_set, factors);
+    applyMeasurements(model, trial, options, factors);
+  } else {
+    applyMeasurements(model, trial, options, factors);
+    applyManual(model, options.marker_set, factors);
+  }
+  warnOfUnusualFactors(options, factors);
+  return factors;
+}
+
+}  // namespace gaitmill

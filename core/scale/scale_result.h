@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/data/model_spec.h"
+#include "core/data/time_series.h"
+
+namespace gaitmill {
+
+/// Factors of one body along its own axes.
+struct BodyScale {
+  std::string body;
+  Eigen::Vector3d factors = Eigen::Vector3d::Ones();
+};
+
+/// One marker pair of a measurement.
+struct PairResult {
+  std::string first;
+  std::string second;
+  double measured = -1;          ///< [m] mean over the frames where both are visible
+  double in_model = -1;          ///< [m] in the default pose
+  double visible_fraction = -1;  ///< of the frames in the range
+  double factor = -1;            ///< measured / in_model
+};
+
+struct MeasurementResult {
+  std::string name;
+  double factor = -1;  ///< mean over the pairs; -1 if it could not be measured
+  std::vector<PairResult> pairs;
+};
+
+/// Fit of one static pose and what it did to the markers.
+struct PlacementResult {
+  TimeSeries pose;                   ///< one row, all coordinates [rad|m]
+  std::vector<std::string> markers;  ///< weighted ones
+  std::vector<double> errors;        ///< [m] before the markers were moved
+  double rms = -1;                   ///< [m] over the weighted markers
+  double max_error = -1;             ///< [m]
+  std::string worst_marker;
+  std::vector<std::string> moved_markers;
+  std::vector<std::string> removed_markers;  ///< in the model, not in the file
+  int iterations = 0;
+  bool converged = false;
+};
+
+/// A model of the subject and how it came about.
+struct ScaleResult {
+  ModelSpec model;
+  std::vector<BodyScale> factors;  ///< one per body, in model order
+  std::vector<MeasurementResult> measurements;
+  std::vector<PlacementResult> placements;
+  double mass = -1;  ///< [kg]
+  std::vector<std::string> warnings;
+};
+
+}  // namespace gaitmill

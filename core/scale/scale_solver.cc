@@ -1,0 +1,99 @@
+#include "core/scale/scale_solver.h"
+
+#include <cstddef>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/model/model.h"
+#include "core/scale/apply_scale.h"
+#include "core/scale/marker_placement.h"
+#include "core/scale/scale_factors.h"
+
+namespace gaitmill {
+
+namespace {
+
+void warnOfPlacement(const ScaleOptions& options,
+                     const PlacementResult& placement,
+                     std::vector<std::string>& warnings) {
+  if (placement.rms > options.warn_rms || placement.max_error > options.warn_max) {
+    char text[160];
+    std::snprintf(text,
+                  sizeof text,
+                  "the static pose meets its markers to %.1f cm RMS, %.1f cm at most (%s)",
+                  100 * placement.rms,
+                  100 * placement.max_error,
+                  placement.worst_marker.c_str());
+    warnings.emplace_back(text);
+  }
+  if (!placement.converged) {
+    warnings.emplace_back("the fit of the static pose did not converge to its tolerance");
+  }
+}
+
+}  // namespace
+
+ScaleSolver::ScaleSolver(ModelSpec generic, ScaleOptions options)
+    : generic_(std::move(generic)), options_(std::move(options)) {
+  options_.validate();
+  addMarkers(options_.marker_set.markers, generic_);
+}
+
+ScaleResult ScaleSolver::solve(const std::vector<MarkerTrajectories>& static_poses) const {
+  ScaleResult result;
+  stretchModel(static_poses, result);
+  if (options_.subject_mass > 0) {
+    setTotalMass(result.model, options_.subject_mass, InertiaScaling::kWithMass);
+  }
+  result.mass = result.model.calcTotalMass();
+  place(static_poses, result);
+  overrideMuscles(result.model);
+  return result;
+}
+
+void ScaleSolver::stretchModel(const std::vector<MarkerTrajectories>& static_poses,
+                               ScaleResult& result) const {
+  require(!static_poses.empty() || options_.marker_set.measurements.empty(),
+          ErrorCode::kInputMissing,
+          "scaling by marker distances needs a static trial",
+          {{}, 0, 0, "static"});
+  const MarkerTrajectories nothing;
+  ScaleFactors factors = calcScaleFactors(
+      Model(generic_), static_poses.empty() ? nothing : static_poses.front(), options_);
+  result.model = applyScaleFactors(generic_,
+                                   factors.bodies,
+                                   options_.marker_set.preserve_mass_distribution
+                                       ? MassDistribution::kPreserved
+                                       : MassDistribution::kFollowsVolume);
+  result.factors = std::move(factors.bodies);
+  result.measurements = std::move(factors.measurements);
+  result.warnings = std::move(factors.warnings);
+}
+
+void ScaleSolver::place(const std::vector<MarkerTrajectories>& static_poses,
+                        ScaleResult& result) const {
+  for (std::size_t i = 0; i < options_.marker_set.placements.size(); ++i) {
+    if (i >= static_poses.size()) {
+      result.warnings.push_back("the marker set describes " +
+                                std::to_string(options_.marker_set.placements.size()) +
+                                " static poses, but only " + std::to_string(static_poses.size()) +
+                                " were given; the others are left out");
+      return;
+    }
+    result.placements.push_back(placeMarkers(
+        options_.marker_set.placements[i], static_poses[i], options_.fit, result.model));
+    warnOfPlacement(options_, result.placements.back(), result.warnings);
+  }
+}
+
+void ScaleSolver::overrideMuscles(ModelSpec& model) const {
+  for (MuscleSpec& muscle : model.muscles) {
+    muscle.max_contraction_velocity =
+        options_.max_contraction_velocity.value_or(muscle.max_contraction_velocity);
+    muscle.fiber_damping = options_.fiber_damping.value_or(muscle.fiber_damping);
+  }
+}
+
+}  // namespace gaitmill
