@@ -1,16 +1,16 @@
 #include "core/sample/gait_pattern.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 
+#include "core/base/error.h"
 #include "core/base/units.h"
 
 namespace gaitmill {
 
 namespace {
-
-constexpr int kHarmonics = 5;
 
 // How a coordinate repeats between the steps of a symmetric gait.
 enum class Side {
@@ -24,8 +24,8 @@ struct CoordinateSeries {
   const char* name;
   Side side;
   double mean;
-  std::array<double, kHarmonics> cosine;
-  std::array<double, kHarmonics> sine;
+  std::array<double, GaitMotion::kHarmonics> cosine;
+  std::array<double, GaitMotion::kHarmonics> sine;
 };
 
 // Least-squares fit of both sides at once to the residual-reduced coordinates of the published
@@ -140,22 +140,21 @@ GaitMotion::GaitMotion(const Model& model, const GaitPattern& pattern)
     : model_(model), free_(model), pattern_(pattern) {
   for (const CoordinateSeries& series : kSeries) {
     const std::string name = series.name;
+    const double scale = isTranslation(name) ? pattern.length_scale : 1.0;
     Column column;
-    column.cosine = series.cosine.data();
-    column.sine = series.sine.data();
-    column.scale = isTranslation(name) ? pattern.length_scale : 1.0;
-    column.mean = column.scale * series.mean + (name == "pelvis_ty" ? pattern.pelvis_height : 0.0);
-    column.slope = name == "pelvis_tx" ? pattern.length_scale * pattern.speed : 0.0;
-    if (series.side != Side::kSided) {
-      column.coordinate = model.getCoordinate(name);
-      columns_.push_back(column);
-      continue;
+    column.mean = scale * series.mean + (name == "pelvis_ty" ? pattern.pelvis_height : 0.0);
+    column.slope = name == "pelvis_tx" ? scale * pattern.speed : 0.0;
+    for (std::size_t n = 0; n < kHarmonics; ++n) {
+      column.terms[n] = {scale * series.cosine[n], scale * series.sine[n]};
     }
-    column.coordinate = model.getCoordinate(name + "_r");
+    const bool is_sided = series.side == Side::kSided;
+    column.coordinate = model.getCoordinate(is_sided ? name + "_r" : name);
     columns_.push_back(column);
-    column.coordinate = model.getCoordinate(name + "_l");
-    column.delay = 0.5 * pattern.period;
-    columns_.push_back(column);
+    if (is_sided) {
+      column.coordinate = model.getCoordinate(name + "_l");
+      column.delay = 0.5 * pattern.period;
+      columns_.push_back(column);
+    }
   }
 }
 
@@ -170,12 +169,11 @@ void GaitMotion::calc(double t,
     double value = column.mean + column.slope * t;
     double rate = column.slope;
     double acceleration = 0;
-    for (int n = 1; n <= kHarmonics; ++n) {
-      const double w = n * 2.0 * kPi / pattern_.period;
-      const double a = column.scale * column.cosine[n - 1];
-      const double b = column.scale * column.sine[n - 1];
+    for (std::size_t n = 0; n < kHarmonics; ++n) {
+      const double w = static_cast<double>(n + 1) * 2.0 * kPi / pattern_.period;
       const double c = std::cos(w * (t - column.delay));
       const double s = std::sin(w * (t - column.delay));
+      const auto& [a, b] = column.terms[n];
       value += a * c + b * s;
       rate += w * (b * c - a * s);
       acceleration -= w * w * (a * c + b * s);
@@ -187,6 +185,20 @@ void GaitMotion::calc(double t,
   free_.conformPose(q);
   free_.conformRates(u);
   free_.conformRates(udot);
+}
+
+void GaitMotion::addTerm(const std::string& coordinate, int harmonic, const HarmonicTerm& term) {
+  check(harmonic >= 1 && harmonic <= kHarmonics, "GaitMotion::addTerm: harmonic out of range");
+  const CoordinateIndex wanted = model_.getCoordinate(coordinate);
+  const auto column = std::find_if(columns_.begin(), columns_.end(), [wanted](const Column& c) {
+    return c.coordinate == wanted;
+  });
+  require(column != columns_.end(),
+          ErrorCode::kInputCoordinates,
+          "the walking pattern has no coordinate '" + coordinate + "'");
+  HarmonicTerm& changed = column->terms[static_cast<std::size_t>(harmonic - 1)];
+  changed.cosine += term.cosine;
+  changed.sine += term.sine;
 }
 
 }  // namespace gaitmill

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -9,6 +11,12 @@
 #include "core/model/model.h"
 
 namespace gaitmill {
+
+/// Cosine and sine coefficients of one Fourier term.
+struct HarmonicTerm {
+  double cosine = 0;
+  double sine = 0;
+};
 
 /// Walking as a Fourier series, left and right alike half a cycle apart:
 ///   q_j(t) = a_j0 + sum_n a_jn cos(n w t) + b_jn sin(n w t),     w = 2 pi / period,  n = 1..5
@@ -23,9 +31,11 @@ struct GaitPattern {
 };
 
 /// The pattern on the coordinates of one model, with exact derivatives. Coordinates that the
-/// pattern does not know keep their default value. Immutable; keeps a reference to the model.
+/// pattern does not know keep their default value. Keeps a reference to the model.
 class GaitMotion {
  public:
+  static constexpr int kHarmonics = 5;
+
   /// @throws Error kInputCoordinates if the model lacks a coordinate of the pattern
   GaitMotion(const Model& model, const GaitPattern& pattern);
 
@@ -36,17 +46,21 @@ class GaitMotion {
             Eigen::Ref<Eigen::VectorXd> u,
             Eigen::Ref<Eigen::VectorXd> udot) const;
 
+  /// Adds to one term of a coordinate of the middle (pelvis, lumbar) [rad|m].
+  /// @param harmonic  1..kHarmonics
+  /// @throws Error kInputCoordinates if the pattern has no such coordinate
+  void addTerm(const std::string& coordinate, int harmonic, const HarmonicTerm& term);
+
+  const Model& model() const { return model_; }
   const GaitPattern& pattern() const { return pattern_; }
 
  private:
   struct Column {
     CoordinateIndex coordinate;
-    const double* cosine = nullptr;  ///< a_1..a_5
-    const double* sine = nullptr;    ///< b_1..b_5
     double mean = 0;
     double slope = 0;  ///< [m/s]
-    double scale = 1;  ///< of the harmonics
     double delay = 0;  ///< [s] half a period on the left side
+    std::array<HarmonicTerm, kHarmonics> terms;
   };
   const Model& model_;
   FreeCoordinates free_;
