@@ -96,7 +96,7 @@ const std::vector<HeaderRule>& headerRules() {
        "SQLite is known to service/storage only"},
       {std::regex("httplib\\.h"), {"api"}, Place::kAnywhere, "HTTP is known to the api only"},
       {std::regex("(GL|EGL)/.*"), {"core/render"}, Place::kAnywhere, "OpenGL stays in core/render"},
-      {std::regex("pugi.*"), {"core/io"}, Place::kSourcesOnly, "XML is read in core/io only"},
+      {std::regex("pugi.*"), {"core/io"}, Place::kAnywhere, "XML is read in core/io only"},
       {std::regex("nlohmann/.*"),
        {"core/pipeline", "api", "service", "service/storage"},
        Place::kAnywhere,
