@@ -1,0 +1,474 @@
+#include "core/io/osim_writer.h"
+
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/base/error.h"
+#include "core/io/number_text.h"
+
+namespace gaitmill {
+
+namespace {
+
+// ActuatorSpec's way to say "no limit"; the document says Inf.
+constexpr double kNoLimit = 1e300;
+
+constexpr std::array<const char*, 6> kSlotNames = {
+    "rotation1", "rotation2", "rotation3", "translation1", "translation2", "translation3"};
+
+/// Indented XML text.
+class XmlText {
+ public:
+  XmlText() : text_("<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n") {}
+
+  /// <tag> or <tag name="...">, to be closed with close().
+  void open(const std::string& tag, const std::string& name = "") {
+    indent();
+    text_ += "<" + tag;
+    if (!name.empty()) {
+      text_ += " name=\"";
+      appendEscaped(name);
+      text_ += "\"";
+    }
+    text_ += ">\n";
+    open_.push_back(tag);
+  }
+  void openDocument() {
+    text_ += "<OpenSimDocument Version=\"40000\">\n";
+    open_.emplace_back("OpenSimDocument");
+  }
+  void close() {
+    const std::string tag = open_.back();
+    open_.pop_back();
+    indent();
+    text_ += "</" + tag + ">\n";
+  }
+  void text(const char* tag, std::string_view value) {
+    indent();
+    text_ += std::string("<") + tag + ">";
+    appendEscaped(value);
+    text_ += std::string("</") + tag + ">\n";
+  }
+  void number(const char* tag, double value) { text(tag, formatNumber(value)); }
+  void boolean(const char* tag, bool value) { text(tag, value ? "true" : "false"); }
+  template <class Numbers>
+  void numbers(const char* tag, const Numbers& values) {
+    std::string line;
+    for (const double value : values) {
+      line += line.empty() ? "" : " ";
+      appendNumber(line, value);
+    }
+    text(tag, line);
+  }
+  /// <Set name="..."><objects>, closed by closeSet().
+  void openSet(const std::string& tag, const std::string& name) {
+    open(tag, name);
+    open("objects");
+  }
+  void closeSet() {
+    close();
+    indent();
+    text_ += "<groups />\n";
+    close();
+  }
+  std::string take() { return std::move(text_); }
+
+ private:
+  void indent() { text_.append(open_.size(), '\t'); }
+  void appendEscaped(std::string_view value) {
+    for (const char c : value) {
+      switch (c) {
+        case '&':
+          text_ += "&amp;";
+          break;
+        case '<':
+          text_ += "&lt;";
+          break;
+        case '>':
+          text_ += "&gt;";
+          break;
+        case '"':
+          text_ += "&quot;";
+          break;
+        default:
+          text_ += c;
+      }
+    }
+  }
+
+  std::string text_;
+  std::vector<std::string> open_;
+};
+
+std::string framePath(const std::string& body) {
+  return body == "ground" ? "/ground" : "/bodyset/" + body;
+}
+
+double documentLimit(double limit) {
+  return std::abs(limit) >= kNoLimit ? std::copysign(INFINITY, limit) : limit;
+}
+
+void writeWraps(XmlText& xml, const std::vector<WrapCylinderSpec>& wraps) {
+  xml.openSet("WrapObjectSet", "wrapobjectset");
+  for (const WrapCylinderSpec& wrap : wraps) {
+    xml.open("WrapCylinder", wrap.name);
+    xml.boolean("active", wrap.active);
+    xml.numbers("xyz_body_rotation", wrap.rotation);
+    xml.numbers("translation", wrap.translation);
+    xml.text("quadrant", wrap.quadrant);
+    xml.number("radius", wrap.radius);
+    xml.number("length", wrap.length);
+    xml.close();
+  }
+  xml.closeSet();
+}
+
+void writeBodies(XmlText& xml, const ModelSpec& spec) {
+  xml.openSet("BodySet", "bodyset");
+  for (const BodySpec& body : spec.bodies) {
+    xml.open("Body", body.name);
+    writeWraps(xml, body.wrap_cylinders);
+    xml.number("mass", body.mass);
+    xml.numbers("mass_center", body.mass_center);
+    xml.numbers("inertia", body.inertia);
+    xml.close();
+  }
+  xml.closeSet();
+}
+
+const char* functionType(FunctionSpec::Kind kind) {
+  switch (kind) {
+    case FunctionSpec::Kind::kConstant:
+      return "Constant";
+    case FunctionSpec::Kind::kLinear:
+      return "LinearFunction";
+    case FunctionSpec::Kind::kPolynomial:
+      return "PolynomialFunction";
+    case FunctionSpec::Kind::kSimmSpline:
+      return "SimmSpline";
+    case FunctionSpec::Kind::kPiecewiseLinear:
+      return "PiecewiseLinearFunction";
+  }
+  return "Constant";
+}
+
+/// The function without its scale. @param name  the property it is the value of, or ""
+void writePlainFunction(XmlText& xml, const FunctionSpec& function, const std::string& name) {
+  xml.open(functionType(function.kind), name);
+  switch (function.kind) {
+    case FunctionSpec::Kind::kConstant:
+      xml.number("value", function.y.at(0));
+      break;
+    case FunctionSpec::Kind::kLinear:
+    case FunctionSpec::Kind::kPolynomial:
+      xml.numbers("coefficients", function.y);
+      break;
+    case FunctionSpec::Kind::kSimmSpline:
+    case FunctionSpec::Kind::kPiecewiseLinear:
+      xml.numbers("x", function.x);
+      xml.numbers("y", function.y);
+      break;
+  }
+  xml.close();
+}
+
+void writeFunction(XmlText& xml, const FunctionSpec& function, const std::string& name) {
+  if (function.scale == 1.0) {
+    writePlainFunction(xml, function, name);
+    return;
+  }
+  xml.open("MultiplierFunction", name);
+  xml.open("function");
+  writePlainFunction(xml, function, "");
+  xml.close();
+  xml.number("scale", function.scale);
+  xml.close();
+}
+
+const char* jointType(JointSpec::Kind kind) {
+  switch (kind) {
+    case JointSpec::Kind::kWeld:
+      return "WeldJoint";
+    case JointSpec::Kind::kPin:
+      return "PinJoint";
+    case JointSpec::Kind::kSlider:
+      return "SliderJoint";
+    case JointSpec::Kind::kUniversal:
+      return "UniversalJoint";
+    case JointSpec::Kind::kPlanar:
+      return "PlanarJoint";
+    case JointSpec::Kind::kGimbal:
+      return "GimbalJoint";
+    case JointSpec::Kind::kCustom:
+      return "CustomJoint";
+  }
+  return "WeldJoint";
+}
+
+void writeCoordinates(XmlText& xml, const JointSpec& joint) {
+  xml.open("coordinates");
+  for (const CoordinateSpec& coordinate : joint.coordinates) {
+    xml.open("Coordinate", coordinate.name);
+    xml.number("default_value", coordinate.default_value);
+    xml.number("default_speed_value", coordinate.default_speed);
+    xml.numbers("range", std::array<double, 2>{coordinate.range_min, coordinate.range_max});
+    xml.boolean("clamped", coordinate.clamped);
+    xml.boolean("locked", coordinate.locked);
+    xml.close();
+  }
+  xml.close();
+}
+
+void writeOffsetFrame(XmlText& xml, const FrameSpec& frame) {
+  xml.open("PhysicalOffsetFrame", frame.body + "_offset");
+  xml.text("socket_parent", framePath(frame.body));
+  xml.numbers("translation", frame.translation);
+  xml.numbers("orientation", frame.orientation);
+  xml.close();
+}
+
+void writeSpatialTransform(XmlText& xml, const JointSpec& joint) {
+  xml.open("SpatialTransform");
+  for (std::size_t i = 0; i < joint.axes.size(); ++i) {
+    xml.open("TransformAxis", kSlotNames[i]);
+    xml.text("coordinates", joint.axes[i].coordinate);
+    xml.numbers("axis", joint.axes[i].axis);
+    writeFunction(xml, joint.axes[i].function, "function");
+    xml.close();
+  }
+  xml.close();
+}
+
+void writeJoints(XmlText& xml, const ModelSpec& spec) {
+  xml.openSet("JointSet", "jointset");
+  for (const JointSpec& joint : spec.joints) {
+    xml.open(jointType(joint.kind), joint.name);
+    xml.text("socket_parent_frame", joint.parent.body + "_offset");
+    xml.text("socket_child_frame", joint.child.body + "_offset");
+    writeCoordinates(xml, joint);
+    xml.open("frames");
+    writeOffsetFrame(xml, joint.parent);
+    writeOffsetFrame(xml, joint.child);
+    xml.close();
+    if (joint.kind == JointSpec::Kind::kCustom) {
+      writeSpatialTransform(xml, joint);
+    }
+    xml.close();
+  }
+  xml.closeSet();
+}
+
+void writeCouplers(XmlText& xml, const ModelSpec& spec) {
+  xml.openSet("ConstraintSet", "constraintset");
+  for (const CouplerSpec& coupler : spec.couplers) {
+    xml.open("CoordinateCouplerConstraint", coupler.name);
+    xml.boolean("isEnforced", coupler.enforced);
+    xml.open("coupled_coordinates_function");
+    writeFunction(xml, coupler.function, "");
+    xml.close();
+    xml.text("independent_coordinate_names", coupler.independent);
+    xml.text("dependent_coordinate_name", coupler.dependent);
+    xml.number("scale_factor", coupler.scale);
+    xml.close();
+  }
+  xml.closeSet();
+}
+
+void writePath(XmlText& xml, const MuscleSpec& muscle) {
+  xml.open("GeometryPath", "geometrypath");
+  xml.openSet("PathPointSet", "");
+  for (std::size_t i = 0; i < muscle.path.size(); ++i) {
+    xml.open("PathPoint", muscle.name + "-P" + std::to_string(i + 1));
+    xml.text("socket_parent_frame", framePath(muscle.path[i].body));
+    xml.numbers("location", muscle.path[i].location);
+    xml.close();
+  }
+  xml.closeSet();
+  xml.openSet("PathWrapSet", "");
+  for (const PathWrapSpec& wrap : muscle.wraps) {
+    xml.open("PathWrap", wrap.wrap_object + "_wrap");
+    xml.text("wrap_object", wrap.wrap_object);
+    xml.text("method", "hybrid");
+    xml.text("range", std::to_string(wrap.first_point) + " " + std::to_string(wrap.last_point));
+    xml.close();
+  }
+  xml.closeSet();
+  xml.close();
+}
+
+void writeContractileCurves(XmlText& xml, const MuscleCurvesSpec& curves) {
+  xml.open("ActiveForceLengthCurve");
+  xml.number("min_norm_active_fiber_length", curves.active_min_length);
+  xml.number("transition_norm_fiber_length", curves.active_transition_length);
+  xml.number("max_norm_active_fiber_length", curves.active_max_length);
+  xml.number("shallow_ascending_slope", curves.active_shallow_slope);
+  xml.number("minimum_value", curves.active_minimum_value);
+  xml.close();
+  xml.open("ForceVelocityCurve");
+  xml.number("concentric_slope_at_vmax", curves.concentric_slope_at_vmax);
+  xml.number("concentric_slope_near_vmax", curves.concentric_slope_near_vmax);
+  xml.number("isometric_slope", curves.isometric_slope);
+  xml.number("eccentric_slope_at_vmax", curves.eccentric_slope_at_vmax);
+  xml.number("eccentric_slope_near_vmax", curves.eccentric_slope_near_vmax);
+  xml.number("max_eccentric_velocity_force_multiplier", curves.max_eccentric_force);
+  xml.number("concentric_curviness", curves.concentric_curviness);
+  xml.number("eccentric_curviness", curves.eccentric_curviness);
+  xml.close();
+}
+
+// The last three properties of the elastic curves are optional: where all three are what a reader
+// computes in their absence, they stay absent, so that changing a strain later changes them too.
+void writeElasticCurves(XmlText& xml, const MuscleCurvesSpec& curves) {
+  xml.open("FiberForceLengthCurve");
+  xml.number("strain_at_zero_force", curves.passive_strain_at_zero_force);
+  xml.number("strain_at_one_norm_force", curves.passive_strain_at_one_force);
+  const double passive_stiffness =
+      2.0 / (curves.passive_strain_at_one_force - curves.passive_strain_at_zero_force);
+  if (curves.passive_stiffness_at_low_force != 0.2 ||
+      curves.passive_stiffness_at_one_force != passive_stiffness ||
+      curves.passive_curviness != 0.75) {
+    xml.number("stiffness_at_low_force", curves.passive_stiffness_at_low_force);
+    xml.number("stiffness_at_one_norm_force", curves.passive_stiffness_at_one_force);
+    xml.number("curviness", curves.passive_curviness);
+  }
+  xml.close();
+  xml.open("TendonForceLengthCurve");
+  xml.number("strain_at_one_norm_force", curves.tendon_strain_at_one_force);
+  if (curves.tendon_stiffness_at_one_force != 1.375 / curves.tendon_strain_at_one_force ||
+      curves.tendon_force_at_toe_end != 2.0 / 3.0 || curves.tendon_curviness != 0.5) {
+    xml.number("stiffness_at_one_norm_force", curves.tendon_stiffness_at_one_force);
+    xml.number("norm_force_at_toe_end", curves.tendon_force_at_toe_end);
+    xml.number("curviness", curves.tendon_curviness);
+  }
+  xml.close();
+}
+
+void writeMuscle(XmlText& xml, const MuscleSpec& muscle) {
+  xml.open("Millard2012EquilibriumMuscle", muscle.name);
+  xml.number("min_control", documentLimit(muscle.min_control));
+  xml.number("max_control", documentLimit(muscle.max_control));
+  writePath(xml, muscle);
+  xml.number("max_isometric_force", muscle.max_isometric_force);
+  xml.number("optimal_fiber_length", muscle.optimal_fiber_length);
+  xml.number("tendon_slack_length", muscle.tendon_slack_length);
+  xml.number("pennation_angle_at_optimal", muscle.pennation_at_optimal);
+  xml.number("max_contraction_velocity", muscle.max_contraction_velocity);
+  xml.boolean("ignore_tendon_compliance", muscle.tendon == TendonKind::kRigid);
+  xml.number("fiber_damping", muscle.fiber_damping);
+  xml.number("default_activation", muscle.default_activation);
+  xml.number("default_fiber_length", muscle.default_fiber_length);
+  xml.number("activation_time_constant", muscle.activation_time_constant);
+  xml.number("deactivation_time_constant", muscle.deactivation_time_constant);
+  xml.number("minimum_activation", muscle.minimum_activation);
+  xml.number("maximum_pennation_angle", muscle.maximum_pennation);
+  writeContractileCurves(xml, muscle.curves);
+  writeElasticCurves(xml, muscle.curves);
+  xml.close();
+}
+
+const char* actuatorType(ActuatorSpec::Kind kind) {
+  switch (kind) {
+    case ActuatorSpec::Kind::kCoordinate:
+      return "CoordinateActuator";
+    case ActuatorSpec::Kind::kPoint:
+      return "PointActuator";
+    case ActuatorSpec::Kind::kTorque:
+      return "TorqueActuator";
+  }
+  return "CoordinateActuator";
+}
+
+void writeActuator(XmlText& xml, const ActuatorSpec& actuator) {
+  xml.open(actuatorType(actuator.kind), actuator.name);
+  xml.number("min_control", documentLimit(actuator.min_control));
+  xml.number("max_control", documentLimit(actuator.max_control));
+  switch (actuator.kind) {
+    case ActuatorSpec::Kind::kCoordinate:
+      xml.text("coordinate", actuator.coordinate);
+      break;
+    case ActuatorSpec::Kind::kPoint:
+      xml.text("body", actuator.body);
+      xml.numbers("point", actuator.point);
+      xml.boolean("point_is_global", false);
+      xml.numbers("direction", actuator.direction);
+      xml.boolean("force_is_global", actuator.direction_in_ground);
+      break;
+    case ActuatorSpec::Kind::kTorque:
+      xml.text("bodyA", actuator.body);
+      xml.text("bodyB", actuator.reaction_body);
+      xml.boolean("torque_is_global", actuator.direction_in_ground);
+      xml.numbers("axis", actuator.direction);
+      break;
+  }
+  xml.number("optimal_force", actuator.optimal_force);
+  xml.close();
+}
+
+void writeGroups(XmlText& xml, const ModelSpec& spec) {
+  xml.open("groups");
+  for (const MuscleGroupSpec& group : spec.muscle_groups) {
+    std::string members;
+    for (const std::string& member : group.members) {
+      members += (members.empty() ? "" : " ") + member;
+    }
+    xml.open("ObjectGroup", group.name);
+    xml.text("members", members);
+    xml.close();
+  }
+  xml.close();
+}
+
+void writeForces(XmlText& xml, const ModelSpec& spec) {
+  xml.open("ForceSet", "forceset");
+  xml.open("objects");
+  for (const MuscleSpec& muscle : spec.muscles) {
+    writeMuscle(xml, muscle);
+  }
+  for (const ActuatorSpec& actuator : spec.actuators) {
+    writeActuator(xml, actuator);
+  }
+  xml.close();
+  writeGroups(xml, spec);
+  xml.close();
+}
+
+void writeMarkers(XmlText& xml, const ModelSpec& spec) {
+  xml.openSet("MarkerSet", "markerset");
+  for (const MarkerSpec& marker : spec.markers) {
+    xml.open("Marker", marker.name);
+    xml.text("socket_parent_frame", framePath(marker.body));
+    xml.numbers("location", marker.location);
+    xml.boolean("fixed", marker.fixed);
+    xml.close();
+  }
+  xml.closeSet();
+}
+
+}  // namespace
+
+std::string writeOsim(const ModelSpec& spec) {
+  XmlText xml;
+  xml.openDocument();
+  xml.open("Model", spec.name);
+  xml.open("Ground", "ground");
+  writeWraps(xml, spec.ground_wrap_cylinders);
+  xml.close();
+  xml.numbers("gravity", spec.gravity);
+  xml.text("credits", spec.credits);
+  xml.text("length_units", "meters");
+  xml.text("force_units", "N");
+  writeBodies(xml, spec);
+  writeJoints(xml, spec);
+  writeCouplers(xml, spec);
+  writeForces(xml, spec);
+  writeMarkers(xml, spec);
+  xml.close();
+  xml.close();
+  return xml.take();
+}
+
+}  // namespace gaitmill
