@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/data/time_series.h"
+
+namespace gaitmill::api {
+
+enum class TableAxis { kTime, kCycle };
+enum class AngleUnit { kRadians, kDegrees };
+enum class ResultFormat { kJson, kCsv, kSto };
+
+/// "moments", "activations", "forces", "kinematics", "residuals"
+const std::vector<std::string>& tableNames();
+
+struct FileView {
+  std::string name;
+  std::int64_t size = 0;  ///< [bytes]
+  std::string sha256;     ///< hex
+};
+
+struct FileContent {
+  FileView view;
+  std::string bytes;
+};
+
+/// Format by the parameter `format` ("" if absent), else by the Accept header ("" = anything).
+/// @throws Error kRequestNotAcceptable naming what there is
+ResultFormat findResultFormat(const std::string& format, const std::string& accept);
+
+/// @throws Error kRequestField; "" means time, radians
+TableAxis parseTableAxis(const std::string& text);
+AngleUnit parseAngleUnit(const std::string& text);
+
+/// "application/json", "text/csv; charset=utf-8", "application/vnd.opensim.sto"
+const char* contentType(ResultFormat format);
+
+/// Columns in rad and rad/s to deg and deg/s; all others as they are.
+TimeSeries convertToDegrees(TimeSeries table);
+
+/// {"name", "axis": {"name", "unit", "values"}, "columns": [{"name", "unit", "values"}]}, NaN as
+/// null. Numbers have the digits that give the same double back.
+std::string renderTableJson(const TimeSeries& table, TableAxis axis);
+
+/// First row "time [s],hip_flexion_r [N.m],…"; dimensionless columns have the unit 1; NaN is an
+/// empty cell.
+std::string renderTableCsv(const TimeSeries& table, TableAxis axis);
+
+/// "quantity,value" with one row per number, quantities as dotted paths whose last part wears the
+/// unit: "moments.ankle_angle_r.rmse_nm,0.31".
+std::string renderQualityCsv(const std::string& quality_json);
+
+/// The same numbers as a table of one row at time 0.
+TimeSeries makeQualityTable(const std::string& quality_json);
+
+std::string renderFiles(const std::vector<FileView>& files);
+
+}  // namespace gaitmill::api
