@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+namespace gaitmill {
+
+/// A new id such as "job_01hf3v6k9e2m8xw7p0q4t5r6s1": the prefix, then 48 bits of milliseconds
+/// since 1970 and 80 random bits in base 32 without i, l, o and u, so that ids sort by time of
+/// creation. Ids made by one process within one millisecond still ascend. Safe from any thread.
+std::string makeId(const std::string& prefix);
+
+}  // namespace gaitmill
