@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cctype>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include <httplib.h>
@@ -20,7 +21,7 @@ namespace {
 
 constexpr int kBacklog = 512;                 // the library's own 5 turns bursts of clients away
 constexpr std::size_t kMaxRequests = 10'000;  // per connection
-constexpr std::chrono::milliseconds kStopPoll{100};
+constexpr std::chrono::milliseconds kStopPoll{50};
 
 std::string toLower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char letter) {
@@ -146,8 +147,20 @@ class Server::Transport : public httplib::Server {
     return port;
   }
 
+  void serve() {
+    started_ = true;
+    if (!stopping_) {
+      listen_after_bind();
+    }
+    finished_ = true;
+  }
+
+  // The library forgets a stop that comes before it listens, so wait until it does.
   void stopServing() {
     stopping_ = true;
+    while (started_ && !finished_ && !is_running()) {
+      std::this_thread::sleep_for(kStopPoll);
+    }
     stop();
   }
 
@@ -312,7 +325,9 @@ class Server::Transport : public httplib::Server {
   Router router_;
   ServerOptions options_;
   ServerLog log_;
+  std::atomic<bool> started_{false};
   std::atomic<bool> stopping_{false};
+  std::atomic<bool> finished_{false};
 };
 
 Server::Server(std::vector<Route> routes, ServerOptions options, ServerLog log)
@@ -326,7 +341,7 @@ int Server::bind() {
 }
 
 void Server::run() {
-  transport_->listen_after_bind();
+  transport_->serve();
 }
 
 void Server::stop() {

@@ -205,7 +205,9 @@ std::optional<ClaimedJob> JobStore::claimNext() {
   return job;
 }
 
-bool JobStore::saveProgress(const JobTicket& ticket, const std::vector<api::StageTiming>& stages) {
+bool JobStore::saveProgress(const JobTicket& ticket,
+                            const std::vector<api::StageTiming>& stages,
+                            const std::vector<std::string>& new_warnings) {
   Connection& db = database_.connection();
   Transaction transaction(db, database_.writers());
   if (!holds(db, ticket)) {
@@ -221,17 +223,9 @@ bool JobStore::saveProgress(const JobTicket& ticket, const std::vector<api::Stag
         .bind(5, stage.fraction)
         .run();
   }
-  transaction.commit();
-  return true;
-}
-
-bool JobStore::addWarning(const JobTicket& ticket, const std::string& message) {
-  Connection& db = database_.connection();
-  Transaction transaction(db, database_.writers());
-  if (!holds(db, ticket)) {
-    return false;
+  for (const std::string& message : new_warnings) {
+    db.prepare(kAddWarning).bind(1, ticket.job_id).bind(2, message).run();
   }
-  db.prepare(kAddWarning).bind(1, ticket.job_id).bind(2, message).run();
   transaction.commit();
   return true;
 }

@@ -58,8 +58,10 @@ class JobStore {
 
   /// The oldest queued job, now running and the caller's.
   std::optional<ClaimedJob> claimNext();
-  bool saveProgress(const JobTicket& ticket, const std::vector<api::StageTiming>& stages);
-  bool addWarning(const JobTicket& ticket, const std::string& message);
+  /// Stages as they stand, and warnings to add.
+  bool saveProgress(const JobTicket& ticket,
+                    const std::vector<api::StageTiming>& stages,
+                    const std::vector<std::string>& new_warnings);
 
   bool succeed(const JobTicket& ticket, const std::vector<ResultItem>& results);
   bool fail(const JobTicket& ticket, const std::string& error_json);

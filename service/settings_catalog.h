@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/pipeline/pipeline.h"
+
+namespace gaitmill {
+
+/// The settings documents that ship with the product: <models>/settings/<name>.json.
+class SettingsCatalog {
+ public:
+  explicit SettingsCatalog(std::string models_folder) : folder_(models_folder + "/settings") {}
+
+  /// @throws Error kSettingsValue naming the settings there are
+  InputFile find(const std::string& name) const;
+  /// In alphabetical order.
+  std::vector<std::string> listNames() const;
+
+ private:
+  std::string folder_;
+};
+
+/// `base` with the fields of `changes` put over it, object by object (RFC 7386). Both are JSON
+/// objects. @throws Error kSettingsJson if one is not
+InputFile mergeSettings(const InputFile& base, const InputFile& changes);
+
+/// The settings document that chooses a marker set: {"scale": {"marker_set": name}}.
+InputFile makeMarkerSetSettings(const std::string& marker_set);
+
+}  // namespace gaitmill
