@@ -79,11 +79,12 @@ IdResult IdSolver::solve(const TimeSeries& coordinates,
                          const ExternalLoads* loads,
                          const Progress& progress) {
   require(coordinates.rowCount() > 0, ErrorCode::kTableNoRows, "the motion has no rows");
-  const TimeSeries motion = prepare(coordinates);
+  const TimeSeries motion = prepare(dropRepeatedRows(coordinates));
   const Range range = findRange(motion.time, coordinates.time.front(), coordinates.time.back());
   const NaturalSpline spline(motion.time, motion.values, kDegree);
   IdResult result = makeResult(motion, range);
   const int rows = range.last - range.first + 1;
+  wrenches_.clear();
   for (int row = 0; row < rows; ++row) {
     if (row % kProgressRows == 0) reportProgress(progress, static_cast<double>(row) / rows);
     solveRow(spline, loads, row, result);

@@ -174,6 +174,25 @@ TimeSeries filterRecursive(const TimeSeries& table, double cutoff) {
   return filtered;
 }
 
+TimeSeries dropRepeatedRows(const TimeSeries& table, double gap) {
+  std::vector<int> kept;
+  for (int i = 0; i < table.rowCount(); ++i) {
+    const double t = table.time[static_cast<std::size_t>(i)];
+    if (kept.empty() || t >= table.time[static_cast<std::size_t>(kept.back())] + gap) {
+      kept.push_back(i);
+    }
+  }
+  if (static_cast<int>(kept.size()) == table.rowCount()) return table;
+  TimeSeries result = table;
+  result.time.resize(kept.size());
+  result.values.resize(static_cast<Eigen::Index>(kept.size()), table.columnCount());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    result.time[i] = table.time[static_cast<std::size_t>(kept[i])];
+    result.values.row(static_cast<Eigen::Index>(i)) = table.values.row(kept[i]);
+  }
+  return result;
+}
+
 TimeSeries cropTime(const TimeSeries& table, double start, double end) {
   const auto first = std::lower_bound(table.time.begin(), table.time.end(), start);
   const auto last = std::upper_bound(first, table.time.end(), end);

@@ -29,6 +29,11 @@ TimeSeries filterFir(const TimeSeries& table, double cutoff);
 /// @param cutoff  [Hz] > 0
 TimeSeries filterRecursive(const TimeSeries& table, double cutoff);
 
+/// The table without rows less than `gap` [s] after the last row kept. Simulations write such rows
+/// where an event ends a step (1e-13 s apart in the published runs); a spline through both would
+/// turn the round-off of their values into accelerations.
+TimeSeries dropRepeatedRows(const TimeSeries& table, double gap = 1e-9);
+
 /// Rows whose time lies in [start, end].
 TimeSeries cropTime(const TimeSeries& table, double start, double end);
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/math/table_filters.h"
 
 namespace gaitmill {
 namespace {
@@ -56,33 +57,20 @@ ReferenceMotion::ReferenceMotion(Rows rows)
 ReferenceMotion::Rows ReferenceMotion::collect(const Model& model,
                                                const FreeCoordinates& free,
                                                const TimeSeries& table) {
-  std::vector<int> kept;
-  for (int row = 0; row < table.rowCount(); ++row) {
-    const auto t = static_cast<std::size_t>(row);
-    if (kept.empty() || table.time[t] > table.time[static_cast<std::size_t>(kept.back())]) {
-      kept.push_back(row);
-    }
-  }
-  require(kept.size() > kDegree,
+  const TimeSeries distinct = dropRepeatedRows(table);
+  require(distinct.rowCount() > kDegree,
           ErrorCode::kTableNoRows,
-          "coordinates '" + table.name + "' have " + std::to_string(kept.size()) +
+          "coordinates '" + table.name + "' have " + std::to_string(distinct.rowCount()) +
               " distinct times, a quintic spline needs 6");
 
   Rows rows;
-  rows.q.setZero(static_cast<Eigen::Index>(kept.size()), free.count());
-  for (const int row : kept) {
-    rows.time.push_back(table.time[static_cast<std::size_t>(row)]);
-  }
+  rows.time = distinct.time;
+  rows.q.setZero(distinct.rowCount(), free.count());
   for (int f = 0; f < free.count(); ++f) {
     const CoordinateIndex c = free.indices()[static_cast<std::size_t>(f)];
-    const auto column =
-        findCoordinateColumn(table, model.coordinateNames()[static_cast<std::size_t>(c.value())]);
-    if (!column) {
-      continue;
-    }
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-      rows.q(static_cast<Eigen::Index>(i), f) = table.values(kept[i], *column);
-    }
+    const auto column = findCoordinateColumn(
+        distinct, model.coordinateNames()[static_cast<std::size_t>(c.value())]);
+    if (column) rows.q.col(f) = distinct.values.col(*column);
   }
   return rows;
 }

@@ -23,7 +23,7 @@ class ReferenceMotion {
  public:
   /// @param table  rows of coordinates [rad|m], padded and filtered already if that is wanted.
   ///               Columns are coordinate names or paths that end in "/<name>/value"; absent ones
-  ///               are 0. A row that is not later than the one before is dropped.
+  ///               are 0. A row that repeats the time of the one before, to 1e-9 s, is dropped.
   /// @throws Error kTableNoRows if fewer than 6 rows remain, kTableNumber
   ReferenceMotion(const Model& model, const FreeCoordinates& free, const TimeSeries& table);
 

@@ -20,17 +20,21 @@ std::vector<double> makeTimes(int count, double step) {
   return time;
 }
 
-// Smooth motion of all coordinates: default pose plus small sines of about step frequency.
+// Smooth motion of all coordinates but the knees, which stay flexed. In the knee Simbody's
+// function-based joint (and so OpenSim) takes Coriolis forces that are not quite the derivative of
+// its velocities: 0.016 W of missing power at 1.2 rad/s, in the reference as well.
 TimeSeries makeSmoothMotion(const Model& model, int rows, double step) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> uniform(0, 1);
   TimeSeries motion = makeTimeSeries("motion", model.coordinateNames(), makeTimes(rows, step));
   for (int c = 0; c < model.coordinateCount(); ++c) {
-    const double amplitude = 0.1 + 0.2 * uniform(random);
+    const bool knee = motion.labels[static_cast<std::size_t>(c)].rfind("knee_angle", 0) == 0;
+    const double middle = 0.1 + 0.2 * uniform(random);
+    const double amplitude = knee ? 0 : middle;
     const double frequency = 0.5 + uniform(random);
     const double phase = 2 * kPi * uniform(random);
     for (int i = 0; i < rows; ++i) {
-      motion.values(i, c) = model.defaultPose()(c) + amplitude +
+      motion.values(i, c) = model.defaultPose()(c) + middle +
                             amplitude * std::sin(2 * kPi * frequency * i * step + phase);
     }
   }
@@ -125,7 +129,7 @@ TEST(IdSolver, PowerOfTheForcesIsTheChangeOfEnergy) {
     largest = std::max(largest, std::abs(power));
     worst = std::max(worst, std::abs(power - rate(0)));
   }
-  EXPECT_LE(worst / largest, tol(1e-6));
+  EXPECT_LE(worst / largest, tol(1e-8));
 }
 
 // Total force = d (momentum) / dt: the residual force is mass times the mass center's acceleration
@@ -147,7 +151,7 @@ TEST(IdSolver, ResidualForceIsWhatTheMassCenterNeeds) {
     spline.evaluate(motion.time[static_cast<std::size_t>(i)], p, v, a);
     const Eigen::Vector3d expected = mass * (a + Eigen::Vector3d(0, kGravity, 0));
     const Eigen::Vector3d force = result.residual_wrench.values.row(i).head<3>().transpose();
-    EXPECT_LE((force - expected).norm(), tol(1e-4) * expected.norm());
+    EXPECT_LE((force - expected).norm(), tol(1e-7) * mass * kGravity);
   }
 }
 

@@ -83,6 +83,14 @@ TEST(RecursiveLowPass, CutoffBeyondNyquistIsLowered) {
   EXPECT_LE((filtered.values - filterRecursive(table, 0.49 / step).values).norm(), tol(1e-9));
 }
 
+TEST(DropRepeatedRows, KeepsTheFirstOfTwoRowsAtOneInstant) {
+  TimeSeries table = makeTimeSeries("t", {"a"}, {0.0, 1.0, 1.0 + 6e-14, 2.0});
+  table.values << 1, 2, 3, 4;
+  const TimeSeries distinct = dropRepeatedRows(table);
+  EXPECT_EQ(distinct.time, (std::vector<double>{0.0, 1.0, 2.0}));
+  EXPECT_EQ(distinct.values(1, 0), 2);
+}
+
 TEST(CropTime, KeepsBothEnds) {
   TimeSeries table = makeTimeSeries("t", {"a"}, {0.0, 1.0, 2.0, 3.0});
   const TimeSeries cropped = cropTime(table, 1.0, 2.5);
