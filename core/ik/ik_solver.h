@@ -22,7 +22,7 @@ namespace gaitmill {
 /// coordinates keep their default, clamped ones stay in their range, coupled ones follow.
 /// Deviation from OpenSim 4.6: the marker part is not divided by the sum of the visible weights,
 /// which matters only beside coordinate tasks (spec/ik.md 1); and each frame is converged to
-/// 1e-9 rad, not to 1e-5 m^2 of the objective.
+/// 1e-8 rad, not to 1e-5 m^2 of the objective.
 class IkSolver {
  public:
   /// Keeps a reference to the model. @throws Error kInputMarkers, kInputCoordinates, kInputValue

@@ -18,7 +18,7 @@ namespace gaitmill {
 /// How hard a marker fit tries. The defaults stop far below measurement noise, so that the answer
 /// does not depend on the start (spec/ik.md 5).
 struct MarkerFitOptions {
-  double step_tolerance = 1e-9;  ///< [rad|m] largest change of any coordinate at the end
+  double step_tolerance = 1e-8;  ///< [rad|m] largest change of any coordinate at the end
   int max_iterations = 200;
   /// Longest step of a rotation in one iteration [rad], a plain trust region.
   double max_rotation_step = 0.5;
