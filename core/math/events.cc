@@ -1,9 +1,16 @@
 #include "core/math/events.h"
 
+#include <cmath>
+
 #include "core/base/error.h"
 
 namespace gaitmill {
 namespace {
+
+constexpr int kPercentages = 101;
+
+// Slack for times that hit a row up to round-off.
+constexpr double kTimeTolerance = 1e-9;  // [s]
 
 // Every stretch above the threshold, without further rules.
 std::vector<Contact> findStretches(const std::vector<double>& time,
@@ -61,6 +68,26 @@ std::vector<Contact> findContacts(const std::vector<double>& time,
     if (isLongEnough(contact, options.minimum_duration)) contacts.push_back(contact);
   }
   return contacts;
+}
+
+TimeSeries normalizeToCycle(const TimeSeries& table, const GaitCycle& cycle) {
+  const double duration = cycle.end - cycle.start;
+  require(duration > 0, ErrorCode::kInputTimeRange, "gait cycle ends before it starts");
+  require(table.rowCount() > 0, ErrorCode::kTableNoRows, "no rows to normalize");
+  std::vector<double> percent(kPercentages);
+  for (int i = 0; i < kPercentages; ++i) percent[static_cast<std::size_t>(i)] = i;
+  TimeSeries normalized = makeTimeSeries(table.name, table.labels, std::move(percent));
+  normalized.units = table.units;
+  for (int i = 0; i < kPercentages; ++i) {
+    const double inside = cycle.start + duration * i / (kPercentages - 1);
+    for (const double t : {inside, inside + duration, inside - duration}) {
+      if (t < table.time.front() - kTimeTolerance || t > table.time.back() + kTimeTolerance)
+        continue;
+      normalized.values.row(i) = table.interpolate(t).transpose();
+      break;
+    }
+  }
+  return normalized;
 }
 
 }  // namespace gaitmill

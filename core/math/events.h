@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <Eigen/Core>
+#include "core/data/time_series.h"
 
 namespace gaitmill {
 
@@ -28,5 +28,19 @@ struct ContactOptions {
 std::vector<Contact> findContacts(const std::vector<double>& time,
                                   const Eigen::Ref<const Eigen::VectorXd>& vertical,
                                   const ContactOptions& options = {});
+
+/// One gait cycle, strike to strike of the same foot [s].
+struct GaitCycle {
+  double start = 0;
+  double end = 0;
+};
+
+/// A table over 0..100 % of the cycle in steps of 1 (`time` holds the percentage), by linear
+/// interpolation between rows. Percentages that the table does not reach stay NaN, unless its rows
+/// beyond 100 % (or before 0 %) cover them: those are moved by one cycle, as the published figures
+/// of the walking trial do with 100..125 %. Where both cover a percentage the row inside the cycle
+/// counts. The seam shows a small jump, which is left as it is (spec/signal.md 8).
+/// @throws Error kInputTimeRange if the cycle is empty
+TimeSeries normalizeToCycle(const TimeSeries& table, const GaitCycle& cycle);
 
 }  // namespace gaitmill

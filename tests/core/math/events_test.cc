@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/error.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/tolerance.h"
 
@@ -95,6 +96,29 @@ TEST(Contacts, CutByTheRecordSaySo) {
   EXPECT_TRUE(contacts[0].has_toe_off);
   EXPECT_TRUE(contacts[1].has_strike);
   EXPECT_FALSE(contacts[1].has_toe_off);
+}
+
+// The published walking window: 25 % to 125 % of a cycle becomes 0..100 %.
+TEST(GaitCycle, RowsBeyondTheCycleFillItsBeginning) {
+  TimeSeries table = makeTimeSeries("t", {"a"}, {});
+  for (int i = 25; i <= 125; ++i) table.time.push_back(0.248 + 1.1445 * i / 100);
+  table.values.resize(101, 1);
+  for (int i = 0; i <= 100; ++i) table.values(i, 0) = 25 + i;
+  const TimeSeries cycle = normalizeToCycle(table, {0.248, 0.248 + 1.1445});
+  ASSERT_EQ(cycle.rowCount(), 101);
+  EXPECT_NEAR(cycle.values(0, 0), 100, tol(1e-9));  // 0 % is inside only as 100 %
+  EXPECT_NEAR(cycle.values(10, 0), 110, tol(1e-9));
+  EXPECT_NEAR(cycle.values(25, 0), 25, tol(1e-9));
+  EXPECT_NEAR(cycle.values(100, 0), 100, tol(1e-9));
+}
+
+TEST(GaitCycle, WhatNobodyMeasuredStaysEmpty) {
+  TimeSeries table = makeTimeSeries("t", {"a"}, {0.5, 0.75});
+  table.values << 1, 2;
+  const TimeSeries cycle = normalizeToCycle(table, {0, 1});
+  EXPECT_TRUE(std::isnan(cycle.values(49, 0)));
+  EXPECT_EQ(cycle.values(50, 0), 1);
+  EXPECT_THROW(normalizeToCycle(table, {1, 1}), Error);
 }
 
 }  // namespace
