@@ -1,0 +1,115 @@
+#include "service/model_command.h"
+
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/units.h"
+#include "core/io/files.h"
+#include "core/io/model_table.h"
+#include "core/io/osim_reader.h"
+
+namespace gaitmill {
+
+namespace {
+
+// Keys stay in the order of the text report.
+using nlohmann::ordered_json;
+
+ordered_json makeVector(const Eigen::Vector3d& v) {
+  return ordered_json::array({v[0], v[1], v[2]});
+}
+
+ordered_json makeCounts(const ModelSpec& spec) {
+  const ModelCounts counts = countModel(spec);
+  return {{"bodies", counts.bodies},
+          {"joints", counts.joints},
+          {"coordinates", counts.coordinates},
+          {"coupled_coordinates", counts.coupled_coordinates},
+          {"locked_coordinates", counts.locked_coordinates},
+          {"muscles", counts.muscles},
+          {"rigid_tendons", counts.rigid_tendons},
+          {"wrap_cylinders", counts.wrap_cylinders},
+          {"actuators", counts.actuators},
+          {"markers", counts.markers}};
+}
+
+ordered_json makeMuscle(const MuscleSpec& muscle) {
+  return {{"name", muscle.name},
+          {"max_isometric_force_n", muscle.max_isometric_force},
+          {"optimal_fiber_length_m", muscle.optimal_fiber_length},
+          {"tendon_slack_length_m", muscle.tendon_slack_length},
+          {"pennation_at_optimal_deg", toDegrees(muscle.pennation_at_optimal)},
+          {"rigid_tendon", muscle.tendon == TendonKind::kRigid},
+          {"max_contraction_velocity_fiber_lengths_per_s", muscle.max_contraction_velocity},
+          {"fiber_damping", muscle.fiber_damping},
+          {"path_points", muscle.path.size()},
+          {"wraps", muscle.wraps.size()}};
+}
+
+ordered_json makeBody(const BodySpec& body) {
+  return {{"name", body.name},
+          {"mass_kg", body.mass},
+          {"mass_center_m", makeVector(body.mass_center)},
+          {"inertia_kg_m2", body.inertia}};
+}
+
+ordered_json makeCoordinate(const JointSpec& joint, const CoordinateSpec& coordinate) {
+  const bool angle = findMotionKind(joint, coordinate.name) == MotionKind::kRotational;
+  const double factor = angle ? kDegreesPerRadian : 1.0;
+  const std::string unit = angle ? "_deg" : "";
+  return {{"name", coordinate.name},
+          {"joint", joint.name},
+          {"range_minimum" + unit, coordinate.range_min * factor},
+          {"range_maximum" + unit, coordinate.range_max * factor},
+          {"clamped", coordinate.clamped},
+          {"locked", coordinate.locked}};
+}
+
+ordered_json makeActuator(const ActuatorSpec& actuator) {
+  const bool on_coordinate = actuator.kind == ActuatorSpec::Kind::kCoordinate;
+  return {
+      {"name", actuator.name},
+      {on_coordinate ? "coordinate" : "body", on_coordinate ? actuator.coordinate : actuator.body},
+      {"optimal_force", actuator.optimal_force}};
+}
+
+std::string makeJson(const ModelSpec& spec, const std::vector<std::string>& warnings) {
+  ordered_json document = {{"name", spec.name},
+                           {"credits", spec.credits},
+                           {"total_mass_kg", spec.calcTotalMass()},
+                           {"counts", makeCounts(spec)}};
+  for (const MuscleSpec& muscle : spec.muscles) {
+    document["muscles"].push_back(makeMuscle(muscle));
+  }
+  for (const BodySpec& body : spec.bodies) {
+    document["bodies"].push_back(makeBody(body));
+  }
+  for (const JointSpec& joint : spec.joints) {
+    for (const CoordinateSpec& coordinate : joint.coordinates) {
+      document["coordinates"].push_back(makeCoordinate(joint, coordinate));
+    }
+  }
+  for (const ActuatorSpec& actuator : spec.actuators) {
+    document["actuators"].push_back(makeActuator(actuator));
+  }
+  document["warnings"] = warnings;
+  return document.dump(2) + "\n";
+}
+
+}  // namespace
+
+std::string describeModel(const std::string& path, ModelReport report) {
+  std::vector<std::string> warnings;
+  const ModelSpec spec = readOsim(readFile(path), path, &warnings);
+  if (report == ModelReport::kJson) {
+    return makeJson(spec, warnings);
+  }
+  std::string text = formatModelTable(spec);
+  for (const std::string& warning : warnings) {
+    text += "warning: " + warning + "\n";
+  }
+  return text;
+}
+
+}  // namespace gaitmill
