@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/analysis/comparison_grid.h"
+#include "core/analysis/gait_cycle.h"
 #include "core/data/time_series.h"
 
 namespace gaitmill {
