@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 
 namespace gaitmill {
 
@@ -163,9 +164,7 @@ std::string renderNumber(double value) {
   if (std::isnan(value)) {
     return "-";
   }
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(std::abs(value) < 10 ? 2 : 1) << value;
-  return text.str();
+  return formatFixed(value, std::abs(value) < 10 ? 2 : 1);
 }
 
 std::string renderPublished(const AcceptanceRow& row) {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <iterator>
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/base/units.h"
 
 namespace gaitmill {
@@ -31,15 +31,11 @@ std::pair<int, int> findFrames(const std::vector<double>& time, const TimeRange&
 }
 
 std::string formatCentimetres(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f cm", 100 * metres);
-  return text;
+  return formatFixed(100 * metres, 1) + " cm";
 }
 
 std::string formatSeconds(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f s", seconds);
-  return text;
+  return formatFixed(seconds, 3) + " s";
 }
 
 std::string join(const std::vector<std::string>& names) {

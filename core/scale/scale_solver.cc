@@ -1,11 +1,11 @@
 #include "core/scale/scale_solver.h"
 
 #include <cstddef>
-#include <cstdio>
 #include <string>
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/model/model.h"
 #include "core/scale/apply_scale.h"
 #include "core/scale/marker_placement.h"
@@ -19,14 +19,10 @@ void warnOfPlacement(const ScaleOptions& options,
                      const PlacementResult& placement,
                      std::vector<std::string>& warnings) {
   if (placement.rms > options.warn_rms || placement.max_error > options.warn_max) {
-    char text[160];
-    std::snprintf(text,
-                  sizeof text,
-                  "the static pose meets its markers to %.1f cm RMS, %.1f cm at most (%s)",
-                  100 * placement.rms,
-                  100 * placement.max_error,
-                  placement.worst_marker.c_str());
-    warnings.emplace_back(text);
+    warnings.push_back("the static pose meets its markers to " +
+                       formatFixed(100 * placement.rms, 1) + " cm RMS, " +
+                       formatFixed(100 * placement.max_error, 1) + " cm at most (" +
+                       placement.worst_marker + ")");
   }
   if (!placement.converged) {
     warnings.emplace_back("the fit of the static pose did not converge to its tolerance");
