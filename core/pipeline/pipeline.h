@@ -23,15 +23,19 @@ struct TrialInput {
   std::optional<InputFile> markers;           ///< TRC, the movement
   std::optional<InputFile> ground_reaction;   ///< MOT/STO
   std::optional<InputFile> emg;               ///< STO/CSV envelopes, for comparison only
-  std::optional<InputFile> model;        ///< .osim: generic model, or scaled if scale is skipped
-  std::optional<InputFile> coordinates;  ///< MOT/STO, to start after IK
-  double mass = 0;                       ///< [kg]
-  double height = 0;                     ///< [m]
+  std::optional<InputFile> model;             ///< .osim: generic model, or scaled if scale is skipped
+  std::optional<InputFile> coordinates;       ///< MOT/STO, to start after IK
+  double mass = 0;                            ///< [kg]
+  double height = 0;                          ///< [m]
 };
 
 enum class Stage { kScale, kIk, kRra, kId, kSo, kCmc };
+inline constexpr int kStageCount = 6;
+
 /// "scale", "ik", "rra", "id", "so", "cmc"
 const char* stageName(Stage stage);
+/// @throws Error kSettingsValue naming the stages there are
+Stage parseStage(const std::string& name);
 
 /// What happens while a pipeline runs; called from its thread.
 struct PipelineEvents {
@@ -48,22 +52,32 @@ struct PipelineResult {
   /// Tables by result name: "moments", "activations", "forces", "kinematics", "residuals". Units in
   /// the table; angles in radians (converted at the edge).
   std::map<std::string, TimeSeries> tables;
-  /// The same tables on 0..100 % of the gait cycle (column "percent" is `time`), where a cycle
-  /// exists.
+  /// The same tables on 0..100 % of the gait cycle (column "percent" is `time`), where a cycle exists.
   std::map<std::string, TimeSeries> cycle_tables;
   /// stages, quality, settings used, warnings: the content of summary.json.
   std::string summary_json;
   std::vector<std::string> warnings;
 };
 
-/// Runs the stages that the settings ask for.
-/// @param settings_json  a document like models/settings/default.json; absent fields take defaults
-/// @throws Error of any stage, with the stage as context; kSettings... naming the field
-PipelineResult runPipeline(const TrialInput& input,
-                           const InputFile& settings_json,
-                           const PipelineEvents& events);
+/// The recipe: which stage gets what, in which order. Holds no state between runs; one object may
+/// serve several threads at once.
+class Pipeline {
+ public:
+  /// @param models_folder  where the project's models, marker sets and settings lie
+  explicit Pipeline(std::string models_folder = "models");
 
-/// Checks a settings document without running it. @throws Error kSettings...
-void checkSettings(const InputFile& settings_json);
+  /// Runs the stages that the settings ask for ("stages": {"first": "rra", "last": "cmc"}).
+  /// @param settings_json  a document like models/settings/default.json; absent fields take defaults
+  /// @throws Error of any stage, with the stage as context; kSettings... naming the field
+  PipelineResult run(const TrialInput& input,
+                     const InputFile& settings_json,
+                     const PipelineEvents& events) const;
+
+  /// Checks a settings document without running it. @throws Error kSettings...
+  void checkSettings(const InputFile& settings_json) const;
+
+ private:
+  std::string models_folder_;
+};
 
 }  // namespace gaitmill

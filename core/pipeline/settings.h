@@ -1,0 +1,119 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/cmc/cmc_options.h"
+#include "core/data/marker_set.h"
+#include "core/data/model_spec.h"
+#include "core/id/id_options.h"
+#include "core/ik/ik_options.h"
+#include "core/io/grf_reader.h"
+#include "core/io/trc_reader.h"
+#include "core/pipeline/pipeline.h"
+#include "core/rra/rra_options.h"
+#include "core/scale/strength.h"
+#include "core/so/so_options.h"
+
+namespace gaitmill {
+
+/// Values by coordinate as a settings document states them. A name that the model does not have
+/// stands for both sides: "hip_flexion" for hip_flexion_r and hip_flexion_l.
+using CoordinateValues = std::map<std::string, double>;
+
+/// Ideal actuators that are added to the model's muscles. Controls count in units of optimal force.
+struct ActuatorSetSettings {
+  /// Residual forces and torques between ground and one body, along ground axes.
+  struct Residuals {
+    std::string body = "pelvis";
+    std::optional<Eigen::Vector3d> point;  ///< [m] in the body; absent = its mass centre
+    double optimal_force = 10;             ///< [N]
+    double optimal_moment = 15;            ///< [N.m]
+    double control_limit = 1000;
+  };
+  std::optional<Residuals> residuals;
+  CoordinateValues coordinates;  ///< optimal force by coordinate [N.m|N]
+  std::string name_suffix = "_reserve";
+  double control_limit = 1000;
+  /// Whether the model document's own torque actuators take part, with this control limit.
+  bool model_actuators = false;
+};
+
+/// How force files are read.
+struct ForceSettings {
+  GrfOptions reading;
+  /// Critically damped zero-lag low-pass, two passes ("second order"), of force and moment [Hz].
+  std::optional<double> lowpass_cutoff;
+};
+
+struct RraSettings {
+  std::optional<double> lowpass_cutoff;  ///< [Hz] of the coordinates; none = unfiltered
+  TimeRange range;
+  ActuatorSetSettings actuators;
+  std::string adjusted_body = "torso";
+  InertiaScaling inertia = InertiaScaling::kWithMass;
+  /// What a pass tracks with. Passes beyond the list repeat its last entry.
+  struct Pass {
+    CoordinateValues weights;
+    std::optional<TimeRange> range;  ///< replaces the common one
+  };
+  std::vector<Pass> passes;
+  int max_passes = 3;
+  double mass_tolerance = 0.01;     ///< [kg] stop when a pass asks for less
+  double center_tolerance = 0.001;  ///< [m]
+};
+
+/// A settings document (models/settings/*.json) as values. Every field has a default.
+struct PipelineSettings {
+  std::string name;
+  std::string description;
+  Stage first = Stage::kScale;
+  Stage last = Stage::kCmc;
+  std::vector<Stage> skipped;
+
+  TrcOptions trc;
+  ForceSettings forces;
+  std::optional<TimeRange> gait_cycle;  ///< two strikes of the right foot; absent = from the forces
+
+  std::string marker_set = "rajagopal2016";  ///< name of models/marker_sets/*.json
+  std::optional<double> fiber_damping;
+
+  double ik_warn_rms = 0.02;  ///< [m]
+  double ik_warn_max = 0.04;  ///< [m]
+  TimeRange ik_range;
+
+  RraSettings rra;
+
+  StrengthLaw strength_law = StrengthLaw::kAsIntended;
+  std::optional<double> strength_height;           ///< [m] replaces the subject's height in the law
+  std::optional<double> max_contraction_velocity;  ///< after residual reduction [l0M / s]
+
+  IdOptions id;
+  int id_pass = 0;  ///< residual reduction pass whose motion is analysed, from 1; 0 = the last
+
+  SoOptions so;
+  ActuatorSetSettings so_actuators;
+  double so_interval = 0.010;  ///< [s] between rows
+
+  CmcOptions cmc;
+  TimeRange cmc_range;
+  ActuatorSetSettings cmc_actuators;
+
+  bool runs(Stage stage) const;
+};
+
+/// Reads a settings document. @throws Error kSettingsJson with line and column;
+///   kSettingsUnknownField naming the nearest field; kSettingsValue, kInputMissing naming the field
+PipelineSettings readSettings(const InputFile& document);
+
+/// Actuators of a set on a model. Residuals are FX FY FZ MX MY MZ; coordinate actuators are named after
+/// their coordinate plus the suffix. @throws Error kInputCoordinates, kModelReference
+std::vector<ActuatorSpec> makeActuators(const ActuatorSetSettings& settings, const ModelSpec& model);
+
+/// Expands names that stand for both sides. @throws Error kInputCoordinates naming the nearest name
+std::map<std::string, double> expandSides(const CoordinateValues& values, const ModelSpec& model);
+
+}  // namespace gaitmill
