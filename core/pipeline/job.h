@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/analysis/gait_cycle.h"
+#include "core/cmc/cmc_result.h"
+#include "core/data/ground_reaction.h"
+#include "core/data/marker_trajectories.h"
+#include "core/data/model_spec.h"
+#include "core/data/time_series.h"
+#include "core/id/id_result.h"
+#include "core/ik/ik_result.h"
+#include "core/pipeline/pipeline.h"
+#include "core/pipeline/settings.h"
+#include "core/rra/rra_result.h"
+#include "core/scale/scale_result.h"
+#include "core/so/so_result.h"
+
+namespace gaitmill {
+
+/// One run of the recipe: settings, input, and what each stage left behind. Private to core/pipeline.
+/// Stages fill their own member and never touch an earlier one; a member is empty until its stage ran.
+struct Job {
+  const TrialInput* input = nullptr;
+  const PipelineEvents* events = nullptr;
+  PipelineSettings settings;
+  std::string models_folder;
+
+  ModelSpec generic;   ///< unscaled, the strength law's reference
+  ModelSpec scaled;    ///< of the subject; what residual reduction starts from
+  ModelSpec adjusted;  ///< after residual reduction and strength; what ID, SO and CMC use
+  std::vector<MarkerTrajectories> static_poses;
+  MarkerTrajectories markers;
+  GroundReaction reaction;
+  TimeSeries measured_coordinates;  ///< from IK or from a file [rad|m]
+  TimeSeries motion;                ///< after residual reduction: what SO and CMC follow
+
+  std::optional<ScaleResult> scale;
+  std::optional<IkResult> ik;
+  std::optional<RraResult> rra;
+  std::optional<IdResult> id;
+  std::optional<SoResult> so;
+  std::optional<CmcResult> cmc;
+
+  std::array<double, kStageCount> seconds{};  ///< processor time of each stage, 0 = not run
+  std::vector<std::string> warnings;
+
+  bool ran(Stage stage) const { return seconds[static_cast<std::size_t>(stage)] > 0; }
+  void warn(const std::string& sentence);
+};
+
+/// Reads the settings and all input files that the chosen stages need. @throws Error
+Job openJob(const TrialInput& input,
+            const InputFile& settings,
+            const std::string& models_folder,
+            const PipelineEvents& events);
+
+/// Runs one stage on what the job has. @throws Error with the stage as context
+void runStage(Stage stage, Job& job);
+
+/// The gait cycle of the right foot: as set, else the first two strikes in the forces; empty if there
+/// are none.
+std::optional<GaitCycle> findGaitCycle(const Job& job);
+
+/// Tables and files of a finished job, without the summary.
+void addTables(const Job& job, PipelineResult& result);
+void addFiles(const Job& job, PipelineResult& result);
+
+/// summary.json: stages with processor seconds and counts, quality, settings used, warnings.
+std::string makeSummary(const Job& job);
+
+}  // namespace gaitmill

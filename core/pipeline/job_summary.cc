@@ -1,0 +1,212 @@
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/analysis/actuator_statistics.h"
+#include "core/analysis/moment_comparison.h"
+#include "core/analysis/tracking_error.h"
+#include "core/pipeline/job.h"
+
+namespace gaitmill {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no NaN: a figure that does not exist is null.
+Json toJson(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json summarizeMoment(const MomentComparison& moment) {
+  return {{"rmse_nm", toJson(moment.rmse)},
+          {"peak_difference_nm", toJson(moment.peak_difference)},
+          {"rmse_percent_of_peak", toJson(moment.rmse_percent_of_peak)},
+          {"peak_difference_percent_of_peak", toJson(moment.peak_difference_percent_of_peak)},
+          {"peak_nm", toJson(moment.peak)},
+          {"fraction_of_instants_at_90_percent", toJson(moment.fraction_at_90_percent)},
+          {"worst_share", toJson(moment.worst_share)},
+          {"worst_percent_of_cycle", toJson(moment.worst_percent)},
+          {"instants", moment.instants}};
+}
+
+Json summarizeTracking(const TrackingError& error) {
+  return {{"max_rms_deg", toJson(error.max_rms_deg)},
+          {"max_deg", toJson(error.max_deg)},
+          {"max_rms_cm", toJson(error.max_rms_cm)},
+          {"max_cm", toJson(error.max_cm)},
+          {"max_rms_centiradian", toJson(error.max_rms_centiradian)},
+          {"worst_rotation", error.worst_rotation},
+          {"worst_translation", error.worst_translation}};
+}
+
+Json summarizeActuators(const std::vector<ActuatorStatistics>& statistics, const std::vector<ActuatorSpec>& specs) {
+  Json summary = Json::object();
+  for (const ActuatorStatistics& entry : statistics) {
+    std::string unit = "nm";
+    for (const ActuatorSpec& spec : specs) {
+      unit = spec.name == entry.name && spec.kind == ActuatorSpec::Kind::kPoint ? "n" : unit;
+    }
+    summary[entry.name] = {{"peak_" + unit, toJson(entry.peak)}, {"rms_" + unit, toJson(entry.rms)}};
+  }
+  return summary;
+}
+
+/// Names of the residuals, or of everything else that is added to the muscles.
+std::vector<std::string> pickNames(const std::vector<ActuatorSpec>& specs, bool residuals) {
+  std::vector<std::string> names;
+  for (const ActuatorSpec& spec : specs) {
+    const bool residual = spec.kind != ActuatorSpec::Kind::kCoordinate;
+    const bool reserve = spec.name.find("_reserve") != std::string::npos;
+    if (residuals ? residual : reserve) {
+      names.push_back(spec.name);
+    }
+  }
+  return names;
+}
+
+Json summarizeStages(const Job& job) {
+  Json stages = Json::object();
+  for (int i = 0; i < kStageCount; ++i) {
+    const Stage stage = static_cast<Stage>(i);
+    if (job.ran(stage)) {
+      stages[stageName(stage)]["seconds"] = job.seconds[static_cast<std::size_t>(i)];
+    }
+  }
+  if (job.ik) {
+    stages["ik"]["frames"] = job.ik->coordinates.rowCount();
+  }
+  if (job.rra) {
+    stages["rra"]["passes"] = job.rra->passes.size();
+  }
+  if (job.id) {
+    stages["id"]["frames"] = job.id->generalized_forces.rowCount();
+  }
+  if (job.so) {
+    stages["so"]["frames"] = job.so->activations.rowCount();
+  }
+  if (job.cmc) {
+    const double simulated = job.cmc->pose.time.back() - job.cmc->pose.time.front();
+    stages["cmc"]["simulated_seconds"] = simulated;
+    stages["cmc"]["real_time_factor"] = job.seconds[static_cast<std::size_t>(Stage::kCmc)] / simulated;
+    stages["cmc"]["windows"] = job.cmc->counters.windows;
+  }
+  return stages;
+}
+
+Json summarizeMarkers(const IkResult& ik) {
+  return {{"mean_rms_m", toJson(ik.mean_rms)},
+          {"max_rms_m", toJson(ik.max_rms)},
+          {"max_error_m", toJson(ik.max_error)},
+          {"max_error_marker", ik.max_error_marker},
+          {"worst_frame_s", toJson(ik.worst_frame_time)}};
+}
+
+Json summarizeScale(const ScaleResult& scale) {
+  Json factors = Json::object();
+  for (const BodyScale& body : scale.factors) {
+    factors[body.body] = {body.factors.x(), body.factors.y(), body.factors.z()};
+  }
+  Json placements = Json::array();
+  for (const PlacementResult& placement : scale.placements) {
+    placements.push_back({{"rms_m", toJson(placement.rms)},
+                          {"max_error_m", toJson(placement.max_error)},
+                          {"worst_marker", placement.worst_marker}});
+  }
+  return {{"factors", factors}, {"mass_kg", toJson(scale.mass)}, {"placements", placements}};
+}
+
+Json summarizeRra(const RraResult& rra) {
+  Json passes = Json::array();
+  for (const RraPassResult& pass : rra.passes) {
+    passes.push_back({{"mass_before_kg", toJson(pass.mass_before)},
+                      {"mass_change_kg", toJson(pass.mass_change)},
+                      {"center_shift_x_m", toJson(pass.center_shift_x)},
+                      {"center_shift_z_m", toJson(pass.center_shift_z)},
+                      {"tracking", summarizeTracking(calcTrackingError(pass.tracking_error))}});
+  }
+  return passes;
+}
+
+std::vector<MomentComparison> compareAllMoments(const Job& job) {
+  std::vector<MomentComparison> moments;
+  if (!job.id || !job.cmc) {
+    return moments;
+  }
+  const TimeSeries& muscle = job.cmc->muscle_moment;
+  const GaitCycle cycle = findGaitCycle(job).value_or(GaitCycle{muscle.time.front(), muscle.time.back()});
+  for (const ComparedMoment& moment : paperMoments()) {
+    if (muscle.findColumn(moment.coordinate)) {
+      moments.push_back(compareMoments(job.id->generalized_forces, muscle, moment, cycle));
+    }
+  }
+  return moments;
+}
+
+const RraPassResult& findReportedPass(const Job& job) {
+  const auto count = static_cast<int>(job.rra->passes.size());
+  const int pass = job.settings.id_pass >= 1 && job.settings.id_pass <= count ? job.settings.id_pass : count;
+  return job.rra->passes[static_cast<std::size_t>(pass - 1)];
+}
+
+Json summarizeInfeasible(const CmcResult& cmc) {
+  Json windows = Json::array();
+  for (const InfeasibleWindow& window : cmc.infeasible_windows) {
+    Json missing = Json::object();
+    for (const InfeasibleWindow::Missing& entry : window.missing) {
+      missing[entry.coordinate] = entry.force;
+    }
+    windows.push_back({{"time_s", window.time}, {"missing_nm", missing}});
+  }
+  return windows;
+}
+
+Json summarizeQuality(const Job& job) {
+  Json quality = Json::object();
+  if (job.ik) {
+    quality["markers"] = summarizeMarkers(*job.ik);
+  }
+  if (job.rra) {
+    quality["tracking"]["rra"] = summarizeTracking(calcTrackingError(findReportedPass(job).tracking_error));
+  }
+  if (job.cmc) {
+    const std::vector<ActuatorSpec>& actuators = job.cmc->options.actuators;
+    quality["tracking"]["cmc"] = summarizeTracking(calcTrackingError(job.cmc->tracking_error));
+    quality["residuals"] = summarizeActuators(
+        calcActuatorStatistics(job.cmc->actuator_force, pickNames(actuators, true)), actuators);
+    quality["reserves"] = summarizeActuators(
+        calcActuatorStatistics(job.cmc->actuator_force, pickNames(actuators, false)), actuators);
+    quality["infeasible_windows"] = summarizeInfeasible(*job.cmc);
+  }
+  const std::vector<MomentComparison> moments = compareAllMoments(job);
+  for (const MomentComparison& moment : moments) {
+    quality["moments"][moment.coordinate] = summarizeMoment(moment);
+  }
+  if (!moments.empty()) {
+    quality["moments"]["fraction_of_instants_at_90_percent"] = toJson(calcFractionAt90Percent(moments));
+  }
+  return quality;
+}
+
+}  // namespace
+
+std::string makeSummary(const Job& job) {
+  Json summary;
+  summary["settings"] = job.settings.name;
+  summary["stages"] = summarizeStages(job);
+  summary["quality"] = summarizeQuality(job);
+  if (job.scale) {
+    summary["scale"] = summarizeScale(*job.scale);
+  }
+  if (job.rra) {
+    summary["rra_passes"] = summarizeRra(*job.rra);
+  }
+  if (const std::optional<GaitCycle> cycle = findGaitCycle(job)) {
+    summary["gait_cycle_s"] = {cycle->first_strike, cycle->second_strike};
+  }
+  summary["warnings"] = job.warnings;
+  return summary.dump(2) + "\n";
+}
+
+}  // namespace gaitmill

@@ -1,0 +1,56 @@
+#include "core/pipeline/pipeline.h"
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/pipeline/job.h"
+#include "core/pipeline/settings.h"
+
+namespace gaitmill {
+
+namespace {
+
+constexpr std::array<const char*, kStageCount> kStageNames = {"scale", "ik", "rra", "id", "so", "cmc"};
+
+}  // namespace
+
+const char* stageName(Stage stage) { return kStageNames[static_cast<std::size_t>(stage)]; }
+
+Stage parseStage(const std::string& name) {
+  std::string known;
+  for (int i = 0; i < kStageCount; ++i) {
+    const Stage stage = static_cast<Stage>(i);
+    if (name == stageName(stage)) {
+      return stage;
+    }
+    known += (i == 0 ? "" : ", ") + std::string(stageName(stage));
+  }
+  throw Error(ErrorCode::kSettingsValue, "there is no stage '" + name + "'; expected one of " + known);
+}
+
+Pipeline::Pipeline(std::string models_folder) : models_folder_(std::move(models_folder)) {}
+
+void Pipeline::checkSettings(const InputFile& settings_json) const { readSettings(settings_json); }
+
+PipelineResult Pipeline::run(const TrialInput& input,
+                             const InputFile& settings_json,
+                             const PipelineEvents& events) const {
+  Job job = openJob(input, settings_json, models_folder_, events);
+  for (int i = 0; i < kStageCount; ++i) {
+    const Stage stage = static_cast<Stage>(i);
+    if (job.settings.runs(stage)) {
+      runStage(stage, job);
+    }
+  }
+  PipelineResult result;
+  addTables(job, result);
+  addFiles(job, result);
+  result.summary_json = makeSummary(job);
+  result.files["summary.json"] = result.summary_json;
+  result.warnings = job.warnings;
+  return result;
+}
+
+}  // namespace gaitmill
