@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -46,6 +47,8 @@ class MultibodyTree {
 
  private:
   struct Impl;
+  static void addJoint(Impl& impl, const ModelSpec& spec, const Topology& topology, std::size_t j);
+
   std::unique_ptr<Impl> impl_;
 };
 
