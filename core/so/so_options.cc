@@ -11,6 +11,8 @@ void SoOptions::validate() const {
     require(ok, ErrorCode::kInputValue, message, {{}, 0, 0, field});
   };
   demand(std::isfinite(exponent) && exponent >= 1, "exponent", "the exponent must be at least 1");
+  demand(
+      solver == Solver::kDualNewton || exponent > 1, "exponent", "Ipopt needs an exponent above 1");
   demand(row_interval >= 1, "row_interval", "the row interval must be at least 1");
   demand(range.start <= range.end, "range", "the time range ends before it starts");
   demand(infeasible_above > 0, "infeasible_above", "the limit must be positive");

@@ -17,7 +17,11 @@ struct SoOptions {
   /// Whether stretched fibers carry load by themselves. OpenSim leaves them out.
   enum class PassiveForce { kOff, kOn };
 
-  double exponent = 2;  ///< p >= 1 of the cost sum |a|^p
+  /// Both give the same answer; the interior point is the slower cross-check.
+  enum class Solver { kDualNewton, kIpopt };
+
+  double exponent = 2;  ///< p >= 1 of the cost sum |a|^p; > 1 for Ipopt
+  Solver solver = Solver::kDualNewton;
   Capacity capacity = Capacity::kForceLengthVelocity;
   PassiveForce passive_force = PassiveForce::kOff;
   /// Residuals and reserves, in addition to the model's own torque actuators. Their control counts

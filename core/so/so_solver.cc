@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/math/ipopt_qp.h"
 
 namespace gaitmill {
 
@@ -15,6 +16,9 @@ namespace {
 
 /// Model documents write an infinite bound as a huge number.
 constexpr double kUnbounded = 1e100;
+
+/// Activation at which the interior point begins: inside every muscle's bounds.
+constexpr double kIpoptStart = 0.1;
 
 std::vector<ActuatorSpec> joinActuators(const ModelSpec& model, const SoOptions& options) {
   std::vector<ActuatorSpec> all = model.actuators;
@@ -63,7 +67,8 @@ SoSolver::SoSolver(const Model& model, const SoOptions& options)
       moment_arms_(model.muscleCount(), free_.count()),
       actuator_columns_(free_.count(), actuators_.count()),
       gains_(problem_.columns()),
-      passive_(Eigen::VectorXd::Zero(model.muscleCount())) {
+      passive_(Eigen::VectorXd::Zero(model.muscleCount())),
+      slack_(free_.count()) {
   problem_.weight.setOnes();
   for (int m = 0; m < model.muscleCount(); ++m) {
     const MuscleSpec& spec = model.spec().muscles[static_cast<std::size_t>(m)];
@@ -96,7 +101,16 @@ QpReport SoSolver::solveInstant(const Instant& instant,
   problem_.c = tau_free_;
   calcMuscleColumns();
   calcActuatorColumns();
-  return qp_.solve(problem_, activations);
+  QpReport report;
+  if (options_.solver == SoOptions::Solver::kIpopt) {
+    activations.setConstant(kIpoptStart);
+    report = solveByIpopt(problem_, {options_.exponent}, activations);
+  } else {
+    report = qp_.solve(problem_, activations);
+  }
+  slack_ = problem_.c;
+  slack_.noalias() -= problem_.A * activations;
+  return report;
 }
 
 void SoSolver::calcDemand(const Instant& instant, const ExternalLoads& loads) {
@@ -199,12 +213,11 @@ void SoSolver::storeRow(int row,
   result.forces.values.row(row).head(model_.muscleCount()) += passive_.transpose();
   result.demand.values.row(row) = tau_free_.transpose();
   result.iterations[static_cast<std::size_t>(row)] = report.iterations;
-  if (report.residual > options_.infeasible_above) {
-    Eigen::Index worst = 0;
-    slack().cwiseAbs().maxCoeff(&worst);
+  Eigen::Index worst = 0;
+  if (slack_.cwiseAbs().maxCoeff(&worst) > options_.infeasible_above) {
     result.infeasible_rows.push_back({result.activations.time[static_cast<std::size_t>(row)],
                                       result.demand.labels[static_cast<std::size_t>(worst)],
-                                      slack()[worst]});
+                                      slack_[worst]});
   }
 }
 

@@ -66,7 +66,9 @@ class SoSolver {
   /// Generalized force of inverse dynamics, (n_free) [N|N.m].
   const Eigen::VectorXd& demand() const { return tau_free_; }
   /// Demand that the bounds did not allow, (n_free) [N|N.m].
-  const Eigen::VectorXd& slack() const { return qp_.slack(); }
+  const Eigen::VectorXd& slack() const { return slack_; }
+  /// The problem in activations: rows are free coordinates, columns actuators.
+  const QpProblem& problem() const { return problem_; }
 
  private:
   void calcDemand(const Instant& instant, const ExternalLoads& loads);
@@ -96,6 +98,7 @@ class SoSolver {
   RowMatrix moment_arms_;                // (n_muscles x n_free)
   Eigen::MatrixXd actuator_columns_;     // (n_free x n_actuators)
   Eigen::VectorXd gains_, passive_;
+  Eigen::VectorXd slack_;  // (n_free)
   std::vector<BodyWrench> wrenches_;
 };
 
