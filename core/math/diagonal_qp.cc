@@ -22,6 +22,10 @@ constexpr int kMaxExpansions = 40;
 constexpr int kMaxBisections = 60;
 // The line search ends when the slope has fallen to this part of the initial one.
 constexpr double kSlopeDrop = 0.5;
+// Forces of a barrier problem: relative width below which a range counts as one value, and the
+// relative change that ends the search for a root.
+constexpr double kFixedRange = 1e-12;
+constexpr double kForceRoundOff = 1e-15;
 
 }  // namespace
 
@@ -44,6 +48,9 @@ DiagonalQp::DiagonalQp(int rows, int columns, const DiagonalQpOptions& options)
       hessian_(rows, rows),
       factor_(rows) {
   require(options.exponent >= 1, ErrorCode::kInputValue, "cost exponent must be at least 1");
+  require(options.barrier >= 0 && (options.barrier == 0 || options.exponent == 2),
+          ErrorCode::kInputValue,
+          "a barrier must not be negative and needs the cost exponent 2");
 }
 
 void DiagonalQp::resetWarmStart() {
@@ -98,7 +105,45 @@ void DiagonalQp::scale(const QpProblem& problem) {
   target_ = problem.c.cwiseProduct(row_scale_);
 }
 
+// Root of 2 x - y - mu/(x - lower) + mu/(upper - x), which increases from one bound to the other.
+double DiagonalQp::calcBarrierForce(int j, double y) const {
+  double low = lower_(j);
+  double high = upper_(j);
+  const double mu = options_.barrier;
+  const double lowest = low;
+  const double highest = high;
+  if (!std::isfinite(lowest) && !std::isfinite(highest)) return 0.5 * y;
+  const double size = std::max(1.0, std::min(std::abs(low), std::abs(high)));
+  if (high - low <= kFixedRange * size) return low;
+  // With one bound alone the distance to it is the root of a quadratic; the other bound can only
+  // push further, so these two points bracket the root.
+  const auto distance = [mu](double q) {
+    const double root = std::sqrt(q * q + 8 * mu);
+    return q > 0 ? 0.25 * (q + root) : 2 * mu / (root - q);
+  };
+  if (std::isfinite(highest)) low = std::max(low, highest - distance(2 * highest - y));
+  if (std::isfinite(lowest)) high = std::min(high, lowest + distance(y - 2 * lowest));
+  if (!std::isfinite(lowest)) return low;
+  if (!std::isfinite(highest)) return high;
+  double x = y < lowest + highest ? high : low;
+  if (x <= lowest || x >= highest) x = 0.5 * (low + high);
+  for (int i = 0; i < kMaxBisections; ++i) {
+    const double from_low = x - lowest;
+    const double to_high = highest - x;
+    const double value = 2 * x - y - mu / from_low + mu / to_high;
+    (value > 0 ? high : low) = x;
+    const double slope = 2 + mu / (from_low * from_low) + mu / (to_high * to_high);
+    double next = x - value / slope;
+    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+    const double change = std::abs(next - x);
+    x = next;
+    if (change <= kForceRoundOff * std::max(1.0, std::abs(x))) break;
+  }
+  return x;
+}
+
 double DiagonalQp::calcForce(int j, double y) const {
+  if (options_.barrier > 0) return calcBarrierForce(j, y);
   const double p = options_.exponent;
   double x = 0;
   if (p == 2) {
@@ -115,6 +160,11 @@ double DiagonalQp::calcForceSlope(int j, double y) const {
   const double p = options_.exponent;
   const double x = calcForce(j, y);
   if (x <= lower_(j) || x >= upper_(j)) return 0;
+  if (options_.barrier > 0) {
+    const double from_low = x - lower_(j);
+    const double to_high = upper_(j) - x;
+    return 1 / (2 + options_.barrier * (1 / (from_low * from_low) + 1 / (to_high * to_high)));
+  }
   if (p == 2) return 0.5;
   if (p < kLinearExponent) return std::abs(y) > 1 ? 0.5 / kLinearCurvature : 0;
   // Infinite at zero for p > 2: held where x is too small to matter.

@@ -14,6 +14,10 @@ struct DiagonalQpOptions {
   double tolerance = 1e-10;  ///< of each row's |c - A F|, relative to what the row can move (below)
   int max_iterations = 200;  ///< Newton steps per attempt
   ElasticMode elastic = ElasticMode::kWhenInfeasible;
+  /// mu >= 0 of -mu sum log(x - lower) + log(upper - x), x = F weight^(1/2), added to the cost: the
+  /// forces then stay off their bounds by about mu / multiplier, as an interior-point solver of
+  /// that final barrier leaves them. Needs p = 2. 0 gives the exact solution.
+  double barrier = 0;
 };
 
 /// Solves a QpProblem exactly by semismooth Newton on its dual (spec/cmc.md 6g). With multipliers
@@ -52,6 +56,7 @@ class DiagonalQp {
   void scale(const QpProblem& problem);
   bool iterate(Attempt attempt, QpReport& report);
   double calcForce(int j, double y) const;
+  double calcBarrierForce(int j, double y) const;
   double calcForceSlope(int j, double y) const;
   void calcResidual(Attempt attempt);
   bool calcDirection(Attempt attempt);

@@ -276,5 +276,44 @@ TEST(DiagonalQp, LinearCostUsesTheCheapestForceFirst) {
   EXPECT_NEAR(F(2), 0, tol(1e-9));
 }
 
+// d cost / dF_j with the barrier's terms equals A_j^T lambda, and every force is off its bounds.
+TEST(DiagonalQp, BarrierSolutionIsStationaryInsideTheBounds) {
+  std::mt19937 random(17);
+  QpProblem problem = makeWindow(random, 8, 30);
+  problem.upper(3) = problem.lower(3);
+  problem.upper(4) = kInfinity;
+  DiagonalQpOptions options;
+  options.barrier = 1e-5;
+  DiagonalQp qp(problem.rows(), problem.columns(), options);
+  Eigen::VectorXd F(problem.columns());
+  ASSERT_EQ(qp.solve(problem, F).stop, QpStop::kSolved);
+  EXPECT_LT(qp.slack().lpNorm<Eigen::Infinity>(), tol(1e-7));
+  EXPECT_EQ(F(3), problem.lower(3));
+  for (int j = 0; j < problem.columns(); ++j) {
+    if (j == 3) continue;
+    ASSERT_GT(F(j), problem.lower(j));
+    ASSERT_LT(F(j), problem.upper(j));
+    const double pull = problem.A.col(j).dot(qp.multipliers());
+    const double slope = 2 * problem.weight(j) * F(j) -
+                         options.barrier / (F(j) - problem.lower(j)) +
+                         options.barrier / (problem.upper(j) - F(j));
+    EXPECT_NEAR(slope, pull, tol(1e-6) * std::sqrt(problem.weight(j))) << j;
+  }
+}
+
+TEST(DiagonalQp, VanishingBarrierGivesTheExactSolution) {
+  std::mt19937 random(23);
+  const QpProblem problem = makeWindow(random, 8, 30);
+  Eigen::VectorXd exact(problem.columns());
+  DiagonalQp(problem.rows(), problem.columns()).solve(problem, exact);
+  DiagonalQpOptions options;
+  options.barrier = 1e-14;
+  Eigen::VectorXd F(problem.columns());
+  DiagonalQp(problem.rows(), problem.columns(), options).solve(problem, F);
+  for (int j = 0; j < problem.columns(); ++j) {
+    EXPECT_NEAR(F(j), exact(j), tol(1e-5) / std::sqrt(problem.weight(j))) << j;
+  }
+}
+
 }  // namespace
 }  // namespace gaitmill
