@@ -290,15 +290,18 @@ double Muscle::solveStaticLength(double activation, double path_length) const no
   return length;
 }
 
-double Muscle::calcRigidActiveForce(double path_length, double path_speed) const noexcept {
+Muscle::ForceLine Muscle::calcRigidForceLine(double path_length, double path_speed) const noexcept {
   const double length = calcRigidLength(path_length);
   if (length <= min_length_) {
-    return 0;
+    return {};
   }
   const double cos = calcGeometry(length).cos;
-  const double active = curves_->active_force_length.calc(length / optimal_length_).value;
-  const double velocity = curves_->force_velocity.calc(path_speed * cos / max_speed_).value;
-  return max_force_ * active * velocity * cos;
+  const double norm_velocity = path_speed * cos / max_speed_;
+  const double along = max_force_ * cos;
+  return {along * curves_->active_force_length.calc(length / optimal_length_).value *
+              curves_->force_velocity.calc(norm_velocity).value,
+          along * (curves_->passive_force_length.calc(length / optimal_length_).value +
+                   damping_ * norm_velocity)};
 }
 
 std::vector<Muscle> makeMuscles(const std::vector<MuscleSpec>& specs) {

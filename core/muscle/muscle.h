@@ -54,6 +54,15 @@ class Muscle {
   /// which always has exactly one root.
   FiberState calcElastic(double activation, double fiber_length, double path_length) const noexcept;
 
+  /// One of the two above, by the kind of tendon.
+  FiberState calcState(double activation,
+                       double fiber_length,
+                       double path_length,
+                       double path_speed) const noexcept {
+    return rigid_ ? calcRigid(activation, path_length, path_speed)
+                  : calcElastic(activation, fiber_length, path_length);
+  }
+
   /// Tendon force of an elastic tendon [N]; no solve.
   double calcTendonForce(double fiber_length, double path_length) const noexcept;
 
@@ -75,9 +84,15 @@ class Muscle {
   /// (spec/muscle.md 7). minFiberLength() if the path is too short for any tension.
   double solveStaticLength(double activation, double path_length) const noexcept;
 
-  /// Active force along the tendon at activation 1 if the tendon were rigid (spec/muscle.md 8,
-  /// with the pennation of the fiber): F0M fAL fV cos(phi). Zero at the minimum fiber length. [N]
-  double calcRigidActiveForce(double path_length, double path_speed) const noexcept;
+  /// Tendon force with a rigid tendon as a function of activation: max(0, gain a + offset) [N].
+  /// The gain is F0M fAL fV cos(phi), what cost functions call the active force at activation 1
+  /// (spec/muscle.md 8, with the pennation of the fiber); the offset is passive force and damping.
+  /// Both are 0 at the minimum fiber length.
+  struct ForceLine {
+    double gain = 0;
+    double offset = 0;
+  };
+  ForceLine calcRigidForceLine(double path_length, double path_speed) const noexcept;
 
  private:
   struct Geometry {

@@ -175,7 +175,22 @@ TEST(Muscle, RigidTendonAtOptimalLengthHasItsClosedForm) {
   const double path = psoas.tendon_slack_length + psoas.optimal_fiber_length * cos;
   const double expected = psoas.max_isometric_force * cos;
   EXPECT_NEAR(makeMuscle("psoas").calcRigid(1, path, 0).tendon_force, expected, tol(1e-9));
-  EXPECT_NEAR(makeMuscle("psoas").calcRigidActiveForce(path, 0), expected, tol(1e-9));
+  EXPECT_NEAR(makeMuscle("psoas").calcRigidForceLine(path, 0).gain, expected, tol(1e-9));
+}
+
+TEST(Muscle, ForceLineIsTheRigidTendonForce) {
+  const LegMuscle& m = findLegMuscle("glmax2");
+  const Muscle muscle = makeMuscle(m.name);
+  for (const double speed : {-1.5, -0.3, 0.0, 0.4}) {
+    for (const double length : {0.11, 0.2, 0.25}) {
+      const Muscle::ForceLine line = muscle.calcRigidForceLine(length, speed);
+      for (const double a : {0.01, 0.4, 1.0}) {
+        EXPECT_NEAR(std::max(0.0, line.gain * a + line.offset),
+                    muscle.calcRigid(a, length, speed).tendon_force,
+                    tol(1e-10));
+      }
+    }
+  }
 }
 
 // Every muscle, activation x length x velocity far beyond what bodies do: the balance is met.
