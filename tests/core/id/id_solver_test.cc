@@ -155,6 +155,122 @@ TEST(IdSolver, ResidualForceIsWhatTheMassCenterNeeds) {
   }
 }
 
+// Ground reaction of some size under both feet, varying over time.
+GroundReaction makeReaction(const std::vector<double>& time) {
+  GroundReaction reaction;
+  reaction.time = time;
+  const auto n = static_cast<Eigen::Index>(time.size());
+  for (const char* body : {"calcn_r", "calcn_l"}) {
+    ExternalForce foot{body, body, {}, {}, {}};
+    foot.force.resize(3, n);
+    foot.point.resize(3, n);
+    foot.torque = Eigen::Matrix3Xd::Zero(3, n);
+    const double side = body == std::string("calcn_r") ? 1 : -1;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double t = time[static_cast<std::size_t>(i)];
+      foot.force.col(i) << 50 * std::sin(5 * t + side), 400 + 200 * side * std::cos(4 * t), 30 * t;
+      foot.point.col(i) << 0.1 * t, 0, 0.1 * side;
+      foot.torque(1, i) = 3 * std::sin(6 * t);
+    }
+    reaction.forces.push_back(foot);
+  }
+  return reaction;
+}
+
+// Largest difference of all joint moments (not of the pelvis), relative to the largest moment.
+double compareJointMoments(const Model& model, const RowMatrix& a, const RowMatrix& b) {
+  const Eigen::Index joints = model.coordinateCount() - 6;
+  return (a - b).middleCols(6, joints).cwiseAbs().maxCoeff() /
+         a.middleCols(6, joints).cwiseAbs().maxCoeff();
+}
+
+TEST(IdSolver, TurningTheLaboratoryLeavesJointMomentsAlone) {
+  const Model model(readOwnModel());
+  const TimeSeries motion = makeSmoothMotion(model, 100, 0.01);
+  const GroundReaction reaction = makeReaction(motion.time);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitY()).toRotationMatrix();
+
+  // Pelvis: tilt about z, list about x, rotation about y, in this order; then the translations.
+  TimeSeries turned = motion;
+  for (int i = 0; i < motion.rowCount(); ++i) {
+    const Eigen::Matrix3d R = turn *
+                              Eigen::AngleAxisd(motion.values(i, 0), Eigen::Vector3d::UnitZ()) *
+                              Eigen::AngleAxisd(motion.values(i, 1), Eigen::Vector3d::UnitX()) *
+                              Eigen::AngleAxisd(motion.values(i, 2), Eigen::Vector3d::UnitY());
+    turned.values(i, 0) = std::atan2(-R(0, 1), R(1, 1));
+    turned.values(i, 1) = std::asin(R(2, 1));
+    turned.values(i, 2) = std::atan2(-R(2, 0), R(2, 2));
+    const Eigen::Vector3d p = motion.values.row(i).segment<3>(3).transpose();
+    turned.values.row(i).segment<3>(3) = (turn * p).transpose();
+  }
+  GroundReaction turned_reaction = reaction;
+  for (ExternalForce& force : turned_reaction.forces) {
+    force.force = turn * force.force;
+    force.point = turn * force.point;
+    force.torque = turn * force.torque;
+  }
+
+  const ExternalLoads loads(model, reaction);
+  const ExternalLoads turned_loads(model, turned_reaction);
+  IdSolver solver(model, {});
+  const RowMatrix before = solver.solve(motion, &loads).generalized_forces.values;
+  const RowMatrix after = solver.solve(turned, &turned_loads).generalized_forces.values;
+  // The turned pelvis angles are other curves: their splines differ by the spline's own error.
+  EXPECT_LE(compareJointMoments(model, before.middleRows(20, 60), after.middleRows(20, 60)),
+            tol(1e-6));
+}
+
+// "hip_flexion_r" -> "hip_flexion_l", "knee_angle_l_beta" -> "knee_angle_r_beta", others as they
+// are.
+std::string swapSide(std::string name) {
+  for (std::size_t at = name.find('_'); at != std::string::npos; at = name.find('_', at + 1)) {
+    if (at + 2 != name.size() && (at + 2 > name.size() || name[at + 2] != '_')) continue;
+    if (name[at + 1] == 'r' || name[at + 1] == 'l') name[at + 1] = name[at + 1] == 'r' ? 'l' : 'r';
+  }
+  return name;
+}
+
+// Mirrored at the sagittal plane: sides swap; list, rotation, sideways and the trunk's like change
+// sign.
+TEST(IdSolver, MirroredMotionHasMirroredMoments) {
+  const Model model(readOwnModel());
+  const TimeSeries motion = makeSmoothMotion(model, 60, 0.01);
+  const GroundReaction reaction = makeReaction(motion.time);
+  std::vector<int> partner;
+  Eigen::RowVectorXd sign = Eigen::RowVectorXd::Ones(model.coordinateCount());
+  for (int c = 0; c < model.coordinateCount(); ++c) {
+    std::string name = motion.labels[static_cast<std::size_t>(c)];
+    for (const char* odd :
+         {"pelvis_list", "pelvis_rotation", "pelvis_tz", "lumbar_bending", "lumbar_rotation"}) {
+      if (name == odd) sign(c) = -1;
+    }
+    partner.push_back(motion.getColumn(swapSide(name)));
+  }
+  const auto mirror = [&](const RowMatrix& values) {
+    RowMatrix mirrored(values.rows(), model.coordinateCount());
+    for (int c = 0; c < model.coordinateCount(); ++c) {
+      mirrored.col(c) = sign(c) * values.col(partner[static_cast<std::size_t>(c)]);
+    }
+    return mirrored;
+  };
+  TimeSeries mirrored = motion;
+  mirrored.values = mirror(motion.values);
+  GroundReaction mirrored_reaction = reaction;
+  for (ExternalForce& force : mirrored_reaction.forces) {
+    force.body = force.body == "calcn_r" ? "calcn_l" : "calcn_r";
+    force.force.row(2) *= -1;
+    force.point.row(2) *= -1;
+    force.torque.topRows(2) *= -1;
+  }
+  const ExternalLoads loads(model, reaction);
+  const ExternalLoads mirrored_loads(model, mirrored_reaction);
+  IdSolver solver(model, {});
+  const RowMatrix expected = mirror(solver.solve(motion, &loads).generalized_forces.values);
+  const RowMatrix found = solver.solve(mirrored, &mirrored_loads)
+                              .generalized_forces.values.leftCols(model.coordinateCount());
+  EXPECT_LE(compareJointMoments(model, expected, found), tol(1e-6));
+}
+
 TEST(IdSolver, KneeSumAddsThePatellaToTheKnee) {
   const Model model(readOwnModel());
   const IdResult result = IdSolver(model, {}).solve(makeSmoothMotion(model, 50, 0.01), nullptr);
