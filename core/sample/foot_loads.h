@@ -47,6 +47,8 @@ class FootLoadDistribution {
   /// lacks the feet ("calcn_r") or their markers ("RCAL", "RTOE") that say how long they are
   explicit FootLoadDistribution(const GaitMotion& motion);
   ~FootLoadDistribution();
+  FootLoadDistribution(const FootLoadDistribution&) = delete;
+  FootLoadDistribution& operator=(const FootLoadDistribution&) = delete;
 
   NetReaction calcNet(double t);
   FootLoads calc(double t);

@@ -15,9 +15,9 @@ namespace gaitmill {
 
 namespace {
 
-constexpr int kSamples = 50;    // over half a cycle; the other half mirrors it
-constexpr int kIterations = 4;  // the fourth changes terms by less than 1e-6
-constexpr int kErrors = 4;      // per sample: point x, z, miss x, z
+constexpr int kSamples = 50;         // over half a cycle; the other half mirrors it
+constexpr int kIterations = 4;       // the fourth changes terms by less than 1e-6
+constexpr Eigen::Index kErrors = 4;  // per sample: point x, z, miss x, z
 // [m] forward, sideways. A foot is 20 cm long and 8 cm wide; forces of walking pass the mass centre
 // within a few centimetres.
 constexpr double kSigmaPointX = 0.02;
@@ -80,7 +80,7 @@ Eigen::VectorXd calcErrors(const GaitMotion& motion) {
 }
 
 // Distance of the zero moment point from its target at a sample [m].
-double findDistance(const Eigen::VectorXd& errors, int sample) {
+double findDistance(const Eigen::VectorXd& errors, Eigen::Index sample) {
   return std::hypot(kSigmaPointX * errors[kErrors * sample],
                     kSigmaPointZ * errors[kErrors * sample + 1]);
 }

@@ -28,6 +28,7 @@ constexpr double kStandingHipAdduction = -0.04;
 std::vector<double> makeTimes(double duration, double rate) {
   const int count = static_cast<int>(std::floor(duration * rate + 0.5)) + 1;
   std::vector<double> times;
+  times.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     times.push_back(i / rate);
   }
@@ -92,7 +93,7 @@ MarkerTrajectories makeTrajectories(std::vector<std::string> names,
   markers.names = std::move(names);
   markers.rate = rate;
   markers.time = std::move(time);
-  markers.positions.resize(markers.frameCount(), 3 * markers.markerCount());
+  markers.positions.resize(markers.frameCount(), Eigen::Index{3} * markers.markerCount());
   return markers;
 }
 
@@ -238,6 +239,7 @@ SampleTrial generateSampleTrial(const Model& subject, const SampleOptions& optio
   recordForces(motion, options.margin, force_time, trial);
 
   std::vector<double> since_strike;
+  since_strike.reserve(force_time.size());
   for (const double t : force_time) {
     since_strike.push_back(t - options.margin);
   }
