@@ -1,6 +1,7 @@
 #include "api/routes.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "api/dto/job.h"
@@ -30,15 +31,17 @@ HttpReply replyWithLocation(int status, const std::string& location, std::string
   return answer;
 }
 
-// "C:\lab\walk1.trc" and "../../walk1.trc" are "walk1.trc": the name is a label in messages.
-std::string findBaseName(const std::string& name) {
+// "C:\lab\walk1.trc" and "../../walk1.trc" are "walk1.trc": the name is a label in messages. A file
+// without a name is called as its part.
+std::string makeLabel(const BodyPart& part) {
+  const std::string& name = part.file_name;
   const std::size_t slash = name.find_last_of("/\\");
   const std::string base = slash == std::string::npos ? name : name.substr(slash + 1);
   std::string label;
   std::copy_if(base.begin(), base.end(), std::back_inserter(label), [](unsigned char letter) {
     return letter >= 0x20 && letter != 0x7f;
   });
-  return label.substr(0, 200);
+  return label.empty() ? part.name : label.substr(0, 200);
 }
 
 TrialUpload readUpload(HttpRequest& request) {
@@ -60,8 +63,7 @@ TrialUpload readUpload(HttpRequest& request) {
             "model and coordinates",
             {"", 0, 0, part.name.substr(0, 100)});
     const bool is_new =
-        upload.files
-            .emplace(part.name, UploadedFile{findBaseName(part.file_name), std::move(part.bytes)})
+        upload.files.emplace(part.name, UploadedFile{makeLabel(part), std::move(part.bytes)})
             .second;
     require(is_new,
             ErrorCode::kRequestField,

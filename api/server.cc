@@ -175,15 +175,21 @@ class Server::Transport : public httplib::Server {
       bool closed = false;
       const bool served = process_request(
           stream, count == kMaxRequests, closed, [&stream](httplib::Request& request) {
-            const std::string length = request.get_header_value("Content-Length");
-            const bool endless = request.has_header("Transfer-Encoding");
-            stream.beginBody(endless ? UINT64_MAX : std::strtoull(length.c_str(), nullptr, 10));
+            beginBody(request, stream);
           });
       if (!served || closed || stream.hasUnreadBody()) {
         return served;
       }
     }
     return true;
+  }
+
+  // Ranges are dropped: the library would repeat the reply once for each of them.
+  static void beginBody(httplib::Request& request, ConnectionStream& stream) {
+    request.ranges.clear();
+    const std::string length = request.get_header_value("Content-Length");
+    const bool endless = request.has_header("Transfer-Encoding");
+    stream.beginBody(endless ? UINT64_MAX : std::strtoull(length.c_str(), nullptr, 10));
   }
 
   bool waitForRequest(ConnectionStream& stream) const {

@@ -56,7 +56,7 @@ UnderstoodFile fromJson(const json& object) {
   file.rate = getIfPresent<double>(object, "rate_hz");
   file.start = getIfPresent<double>(object, "start_s");
   file.end = getIfPresent<double>(object, "end_s");
-  for (const char* kind : {"markers", "columns", "muscles"}) {
+  for (const char* kind : {"markers", "forces", "columns", "muscles"}) {
     if (object.contains(kind)) {
       file.labels_kind = kind;
       file.labels = object.at(kind).get<std::vector<std::string>>();

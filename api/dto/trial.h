@@ -36,12 +36,12 @@ struct UnderstoodFile {
   std::string name;
   std::int64_t size = 0;  ///< [bytes]
   std::string sha256;     ///< hex
-  std::string format;     ///< "trc", "sto", "osim"
+  std::string format;     ///< "trc", "table", "osim"
   std::optional<int> frames;
   std::optional<double> rate;   ///< [Hz]
   std::optional<double> start;  ///< [s]
   std::optional<double> end;    ///< [s]
-  std::string labels_kind;      ///< "markers", "columns", "muscles"
+  std::string labels_kind;  ///< "markers", "forces", "columns" or "muscles"
   std::vector<std::string> labels;
 };
 

@@ -25,7 +25,7 @@ int findSeam(const GaitCycle& cycle, double first_time, std::optional<int> seam_
 }
 
 void requireCycle(const GaitCycle& cycle) {
-  require(cycle.second_strike > cycle.first_strike,
+  require(cycle.end > cycle.start,
           ErrorCode::kInputTimeRange,
           "the second heel strike is not later than the first");
 }
@@ -33,11 +33,11 @@ void requireCycle(const GaitCycle& cycle) {
 }  // namespace
 
 double calcPercent(const GaitCycle& cycle, double time) {
-  return 100.0 * (time - cycle.first_strike) / (cycle.second_strike - cycle.first_strike);
+  return 100.0 * (time - cycle.start) / (cycle.end - cycle.start);
 }
 
 double calcCycleTime(const GaitCycle& cycle, double percent) {
-  return cycle.first_strike + 0.01 * percent * (cycle.second_strike - cycle.first_strike);
+  return cycle.start + 0.01 * percent * (cycle.end - cycle.start);
 }
 
 std::vector<CycleSample> makeComparisonGrid(const GaitCycle& cycle,
@@ -60,31 +60,6 @@ std::vector<CycleSample> makeComparisonGrid(const GaitCycle& cycle,
     addIfCovered(percent, 1);
   }
   return grid;
-}
-
-TimeSeries normalizeToCycle(const TimeSeries& table,
-                            const GaitCycle& cycle,
-                            std::optional<int> seam_percent) {
-  requireCycle(cycle);
-  require(table.rowCount() > 0, ErrorCode::kTableNoRows, "table '" + table.name + "' has no rows");
-  const int seam = findSeam(cycle, table.time.front(), seam_percent);
-  std::vector<double> percents;
-  for (int percent = 0; percent <= 100; ++percent) {
-    percents.push_back(percent);
-  }
-  TimeSeries normalized = makeTimeSeries(table.name, table.labels, percents);
-  normalized.units = table.units;
-  for (int percent = 0; percent <= 100; ++percent) {
-    const double preferred = percent < seam ? percent + 100.0 : percent;
-    for (const double shift : {0.0, 100.0, -100.0}) {
-      const double time = calcCycleTime(cycle, preferred + shift);
-      if (isCovered(time, table.time.front(), table.time.back())) {
-        normalized.values.row(percent) = table.interpolate(time).transpose();
-        break;
-      }
-    }
-  }
-  return normalized;
 }
 
 }  // namespace gaitmill

@@ -3,17 +3,11 @@
 #include <optional>
 #include <vector>
 
-#include "core/data/time_series.h"
+#include "core/math/events.h"
 
 namespace gaitmill {
 
-/// One gait cycle of a leg: from a heel strike to the next of the same foot [s].
-struct GaitCycle {
-  double first_strike = 0;
-  double second_strike = 1;
-};
-
-/// 100 (t - RHS1) / (RHS2 - RHS1); below 0 before the cycle, above 100 after it.
+/// 100 (t - start) / (end - start); below 0 before the cycle, above 100 after it.
 double calcPercent(const GaitCycle& cycle, double time);
 /// The inverse [s].
 double calcCycleTime(const GaitCycle& cycle, double percent);
@@ -36,13 +30,5 @@ std::vector<CycleSample> makeComparisonGrid(const GaitCycle& cycle,
                                             double first_time,
                                             double last_time,
                                             std::optional<int> seam_percent = std::nullopt);
-
-/// The table on 0..100 % of the cycle: 101 rows, `time` holds the percent, linear interpolation.
-/// Percents below the seam are read one cycle later; the step that this leaves at the seam is not
-/// smoothed (spec/signal.md 8). What the record does not cover there is read one cycle earlier or
-/// later if it is covered then; else NaN.
-TimeSeries normalizeToCycle(const TimeSeries& table,
-                            const GaitCycle& cycle,
-                            std::optional<int> seam_percent = std::nullopt);
 
 }  // namespace gaitmill

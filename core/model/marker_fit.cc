@@ -266,9 +266,17 @@ MarkerFitSummary MarkerFit::solve(const Eigen::Ref<const Eigen::Matrix3Xd>& meas
 
 MarkerFitSummary MarkerFit::iterate() {
   MarkerFitSummary summary;
+  summary.objective = evaluate(q_);
+  const bool nothing_pulls =
+      targets_.empty() && std::all_of(active_weights_.begin(),
+                                      active_weights_.end(),
+                                      [](double weight) { return weight == 0; });
+  if (nothing_pulls) {
+    summary.stop = FitStop::kConverged;
+    return summary;
+  }
   double damping = kFirstDamping;
   bool trust_newton = true;
-  summary.objective = evaluate(q_);
   while (summary.iterations < options_.max_iterations) {
     ++summary.iterations;
     linearize();

@@ -51,7 +51,8 @@ struct FitScope {
 /// Newton's method with the analytic Jacobian and the analytic second derivatives of the tree
 /// (d2x/dq_j dq_k = w_j x dx/dq_k for j proximal to k; of a spline knee its own second derivative
 /// is left out), Levenberg damping where that is not downhill, and an exact box-constrained step by
-/// an active set. One per thread; sizes its memory in the constructor; solve() does not allocate.
+/// an active set. One per thread; sizes its memory in the constructor; solve() allocates nothing of
+/// its own.
 class MarkerFit {
  public:
   /// @param available  names of the measured markers; a task counts if its marker has weight > 0

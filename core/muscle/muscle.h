@@ -93,6 +93,9 @@ class Muscle {
     double offset = 0;
   };
   ForceLine calcRigidForceLine(double path_length, double path_speed) const noexcept;
+  double calcRigidActiveForce(double path_length, double path_speed) const noexcept {
+    return calcRigidForceLine(path_length, path_speed).gain;
+  }
 
  private:
   struct Geometry {

@@ -15,7 +15,7 @@
 #include "service/log.h"
 #include "tests/service/child_process.h"
 #include "tests/service/fake_pipeline.h"
-#include "tests/service/http_client.h"
+#include "tests/http/http_client.h"
 
 namespace gaitmill {
 namespace {

@@ -1,7 +1,5 @@
 #include "core/analysis/gait_cycle.h"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
@@ -10,24 +8,10 @@
 namespace gaitmill {
 namespace {
 
-// A table whose only column is its own time, 10 ms rows.
-TimeSeries makeClock(double first, double last) {
-  std::vector<double> time;
-  const int count = static_cast<int>(std::lround((last - first) / 0.01));
-  for (int i = 0; i <= count; ++i) {
-    time.push_back(first + 0.01 * i);
-  }
-  TimeSeries table = makeTimeSeries("clock", {"t"}, time);
-  for (int i = 0; i <= count; ++i) {
-    table.values(i, 0) = time[static_cast<std::size_t>(i)];
-  }
-  return table;
-}
-
 // Strikes of the published walking trial (spec/signal.md 7.1).
 constexpr GaitCycle kWalk{0.248, 1.3925};
 
-TEST(GaitCycle, PercentAndTimeAreInverse) {
+TEST(CyclePercent, PercentAndTimeAreInverse) {
   EXPECT_NEAR(calcPercent(kWalk, 1.047), 69.8, tol(0.02));  // right toe-off as published
   EXPECT_NEAR(calcCycleTime(kWalk, calcPercent(kWalk, 0.9)), 0.9, tol(1e-15));
 }
@@ -45,7 +29,7 @@ TEST(ComparisonGrid, RealignsThePublishedWalkAtItsSeam) {
   EXPECT_EQ(grid[0].percent, 25);
   EXPECT_EQ(grid[75].percent, 100);
   EXPECT_EQ(grid[76].percent, 0);
-  EXPECT_NEAR(grid[76].time, kWalk.second_strike, tol(1e-12));
+  EXPECT_NEAR(grid[76].time, kWalk.end, tol(1e-12));
   EXPECT_EQ(grid[101].percent, 25);
 }
 
@@ -65,28 +49,6 @@ TEST(ComparisonGrid, FirstCoveredPercentIsTheDefaultSeam) {
 
 TEST(ComparisonGrid, StrikesInTheWrongOrderAreRefused) {
   EXPECT_THROW(makeComparisonGrid({1.0, 1.0}, 0, 2), Error);
-}
-
-TEST(NormalizeToCycle, ReadsBelowTheSeamOneCycleLater) {
-  const TimeSeries table = normalizeToCycle(makeClock(0.45, 1.80), kWalk, 25);
-  ASSERT_EQ(table.rowCount(), 101);
-  EXPECT_NEAR(table.values(25, 0), calcCycleTime(kWalk, 25), tol(1e-12));
-  EXPECT_NEAR(table.values(24, 0), calcCycleTime(kWalk, 124), tol(1e-12));
-  EXPECT_NEAR(table.values(0, 0), table.values(100, 0), tol(1e-12));
-}
-
-TEST(NormalizeToCycle, ReadsTheEndOneCycleEarlierIfTheRecordStopsShort) {
-  const TimeSeries table = normalizeToCycle(makeClock(-0.1, 0.95), {0.0, 1.0});
-  EXPECT_NEAR(table.values(95, 0), 0.95, tol(1e-12));
-  EXPECT_NEAR(table.values(97, 0), -0.03, tol(1e-12));
-}
-
-TEST(NormalizeToCycle, MissingInstantsAreNotANumber) {
-  const TimeSeries table = normalizeToCycle(makeClock(0.3, 0.8), {0.0, 1.0}, 0);
-  EXPECT_TRUE(std::isnan(table.values(29, 0)));
-  EXPECT_NEAR(table.values(30, 0), 0.3, tol(1e-12));
-  EXPECT_NEAR(table.values(80, 0), 0.8, tol(1e-12));
-  EXPECT_TRUE(std::isnan(table.values(81, 0)));
 }
 
 }  // namespace

@@ -208,7 +208,7 @@ TEST(Rajagopal2016, LeftJointOffsetsMirrorTheRight) {
         expected[2] = -expected[2];
       }
       EXPECT_EQ(left.parent.orientation, expected) << right.name;
-      EXPECT_EQ(left.child.orientation.isZero(0), right.child.orientation.isZero(0));
+      EXPECT_EQ(left.child.orientation, expected) << right.name;
     }
   }
 }

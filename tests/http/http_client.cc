@@ -1,4 +1,4 @@
-#include "tests/service/http_client.h"
+#include "tests/http/http_client.h"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -18,6 +18,8 @@
 namespace gaitmill {
 
 namespace {
+
+constexpr int kSilence = 3000;  // [ms]
 
 ClientReply convert(const httplib::Result& result) {
   ClientReply reply;
@@ -61,7 +63,7 @@ ClientReply HttpClient::upload(const std::string& path,
   return convert(client.Post(path, items));
 }
 
-std::string HttpClient::sendRaw(const std::string& bytes, int silence_ms) const {
+std::string HttpClient::sendRaw(const std::string& bytes, const std::string& last) const {
   const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET;
@@ -72,12 +74,15 @@ std::string HttpClient::sendRaw(const std::string& bytes, int silence_ms) const 
     ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL);
     std::array<char, 4096> buffer{};
     pollfd entry{socket, POLLIN, 0};
-    while (::poll(&entry, 1, silence_ms) > 0) {
+    while (::poll(&entry, 1, kSilence) > 0) {
       const ssize_t got = ::recv(socket, buffer.data(), buffer.size(), 0);
       if (got <= 0) {
         break;
       }
       answer.append(buffer.data(), static_cast<std::size_t>(got));
+      if (!last.empty() && answer.find(last) != std::string::npos) {
+        break;
+      }
     }
   }
   ::close(socket);

@@ -34,9 +34,9 @@ class HttpClient {
                    const std::string& content_type = "application/json") const;
   ClientReply upload(const std::string& path, const std::vector<ClientPart>& parts) const;
 
-  /// Sends the bytes as they are and returns what comes back until the server closes or is silent
-  /// for `silence_ms`.
-  std::string sendRaw(const std::string& bytes, int silence_ms = 1500) const;
+  /// Sends the bytes as they are and returns what comes back until the server closes, is silent for
+  /// three seconds, or has sent `last`.
+  std::string sendRaw(const std::string& bytes, const std::string& last = "") const;
 
   /// Asks for the job every few milliseconds until it is in one of these states.
   /// @throws std::runtime_error after 30 s
