@@ -46,7 +46,7 @@ class ResultPort {
                                TableAxis axis) = 0;
   /// The quality figures, a JSON object. @throws as findTable
   virtual std::string findQuality(const std::string& job_id) = 0;
-  /// Bytes of an OpenSim storage file. `angles` also goes into its header.
+  /// Bytes of an OpenSim storage file with the table's angles in this unit, as its header says.
   virtual std::string encodeSto(const TimeSeries& table, AngleUnit angles) = 0;
   virtual std::vector<FileView> listFiles(const std::string& job_id) = 0;
   virtual FileContent findFile(const std::string& job_id, const std::string& name) = 0;

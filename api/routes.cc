@@ -104,18 +104,13 @@ std::string encodeTable(ResultPort& results, const HttpRequest& request, ResultF
   const AngleUnit angles = parseAngleUnit(queryOf(request, "angles"));
   TimeSeries table =
       results.findTable(request.captures.at("id"), request.captures.at("name"), axis);
+  if (format == ResultFormat::kSto) {
+    return results.encodeSto(table, angles);
+  }
   if (angles == AngleUnit::kDegrees) {
     table = convertToDegrees(std::move(table));
   }
-  switch (format) {
-    case ResultFormat::kJson:
-      return renderTableJson(table, axis);
-    case ResultFormat::kCsv:
-      return renderTableCsv(table, axis);
-    case ResultFormat::kSto:
-      return results.encodeSto(table, angles);
-  }
-  return "";
+  return format == ResultFormat::kCsv ? renderTableCsv(table, axis) : renderTableJson(table, axis);
 }
 
 HttpReply findResult(ResultPort& results, const HttpRequest& request) {

@@ -70,4 +70,8 @@ InputFile makeMarkerSetSettings(const std::string& marker_set) {
   return {"trial", json{{"scale", {{"marker_set", marker_set}}}}.dump()};
 }
 
+InputFile makeFirstStageSettings(const std::string& stage) {
+  return {"--from", json{{"from", stage}}.dump()};
+}
+
 }  // namespace gaitmill

@@ -33,8 +33,10 @@ std::string describeRange(const NumberRange& range) {
 }  // namespace
 
 nlohmann::json parseJson(const std::string& text, const std::string& what) {
-  const auto limit_nesting = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
-    gaitmill::require(depth <= kMaxNesting,
+  using Event = nlohmann::json::parse_event_t;
+  const auto limit_nesting = [&](int depth, Event event, nlohmann::json&) {
+    const bool opens = event == Event::array_start || event == Event::object_start;
+    gaitmill::require(!opens || depth < kMaxNesting,
                       ErrorCode::kRequestMalformed,
                       "JSON is nested deeper than " + std::to_string(kMaxNesting) + " levels",
                       {what, 0, 0, ""});

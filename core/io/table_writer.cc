@@ -31,17 +31,23 @@ bool isRotational(const std::string& label, const ModelSpec& model) {
          findMotionKind(model, name) == MotionKind::kRotational;
 }
 
+bool isAngleUnit(const std::string& unit) {
+  return unit == "rad" || unit == "rad/s";
+}
+
 /// Factor per column: 180/pi for what is to be written in degrees, else 1.
 std::vector<double> findFactors(const TimeSeries& table, const TableWriteOptions& options) {
   std::vector<double> factors(table.labels.size(), 1.0);
   if (options.angles == AngleUnit::kRadians) {
     return factors;
   }
-  require(options.model != nullptr,
+  require(options.model != nullptr || !table.units.empty(),
           ErrorCode::kInputValue,
-          "writing degrees needs the model, which tells angles from lengths");
+          "writing degrees needs the model or units, which tell angles from lengths");
   for (std::size_t i = 0; i < factors.size(); ++i) {
-    factors[i] = isRotational(table.labels[i], *options.model) ? kDegreesPerRadian : 1.0;
+    const bool is_angle = options.model != nullptr ? isRotational(table.labels[i], *options.model)
+                                                   : isAngleUnit(table.units[i]);
+    factors[i] = is_angle ? kDegreesPerRadian : 1.0;
   }
   return factors;
 }

@@ -15,14 +15,14 @@ enum class AngleUnit { kRadians, kDegrees };
 
 struct TableWriteOptions {
   AngleUnit angles = AngleUnit::kRadians;
-  const ModelSpec* model = nullptr;  ///< needed for degrees
+  const ModelSpec* model = nullptr;  ///< for degrees; without it, the columns in rad and rad/s
   std::vector<std::string> notes;    ///< free lines of the header
 };
 
 /// A table as MOT or STO text, which OpenSim and readTable open: version 1 header, tabs, each
 /// number as the shortest text that reads back as the same double, NaN where nothing was measured.
 /// @throws Error kTableShape if labels, times and values do not fit each other, kInputValue if
-/// degrees are asked for without a model
+/// degrees are asked for without a model or units
 std::string writeTable(const TimeSeries& table, const TableWriteOptions& options = {});
 
 /// The same as CSV: first row "time [s]" and "name [unit]" ("name [1]" if dimensionless, "name"

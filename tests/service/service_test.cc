@@ -3,8 +3,6 @@
 #include "service/service.h"
 
 #include <csignal>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <set>
 #include <string>
@@ -13,9 +11,10 @@
 #include <nlohmann/json.hpp>
 
 #include "service/log.h"
+#include "tests/http/http_client.h"
 #include "tests/service/child_process.h"
 #include "tests/service/fake_pipeline.h"
-#include "tests/http/http_client.h"
+#include "tests/support/temporary_folder.h"
 
 namespace gaitmill {
 namespace {
@@ -26,32 +25,16 @@ const std::vector<ClientPart> kTrial = {
     {"markers", "walk.trc", "the bytes"},
     {"trial", "", R"({"mass_kg": 75.3, "height_m": 1.7, "marker_set": "lab_a"})"}};
 
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "gaitmill-XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
-    std::filesystem::create_directories(path_ + "/models/settings");
-    write("models/settings/default.json", "{}");
-    write("models/settings/slow.json", R"({"steps": 20, "step_ms": 10})");
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-
- private:
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ + "/" + name) << text;
-  }
-  std::string path_;
-};
+void writeSettings(const TemporaryFolder& folder) {
+  folder.write("models/settings/default.json", "{}");
+  folder.write("models/settings/slow.json", R"({"steps": 20, "step_ms": 10})");
+}
 
 class ServiceTest : public ::testing::Test {
  protected:
   void SetUp() override {
     setUpLog("off");
+    writeSettings(folder_);
     startService();
   }
 
@@ -139,6 +122,7 @@ TEST_F(ServiceTest, StoppingPutsRunningJobsBackAndTheNextStartFinishesThem) {
 // The process is killed in the middle of several jobs, again and again; every job completes.
 TEST(ServiceProcess, KillInMidJobLosesNothing) {
   const TemporaryFolder folder;
+  writeSettings(folder);
   const std::vector<std::string> command = {
       FAKE_SERVICE, folder / "mill.db", folder / "models", "2"};
   std::set<std::string> jobs;

@@ -120,5 +120,17 @@ TEST_F(TableWriterShared, MotionInDegreesReadsBack) {
   EXPECT_LT((again.values - q.values).cwiseAbs().maxCoeff(), tol(1e-15));
 }
 
+// Without a model the table's own units tell angles from lengths.
+TEST(TableWriter, UnitsTellAnglesWithoutAModel) {
+  TimeSeries table = makeTimeSeries("q", {"knee_angle_r", "pelvis_ty"}, {0.0});
+  table.units = {"rad", "m"};
+  table.values << 0.5, 0.9;
+  const std::string text = writeTable(table, {AngleUnit::kDegrees, nullptr, {}});
+  EXPECT_NE(text.find("inDegrees=yes"), std::string::npos);
+  EXPECT_NE(text.find("0\t28.64788975654116\t0.9\n"), std::string::npos) << text;
+  table.units.clear();
+  EXPECT_THROW(writeTable(table, {AngleUnit::kDegrees, nullptr, {}}), Error);
+}
+
 }  // namespace
 }  // namespace gaitmill

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "service/config.h"
+#include "service/model_command.h"
+
+namespace gaitmill {
+
+/// `gaitmill run`: the pipeline on local files.
+struct RunOptions {
+  std::string settings = "default";  ///< file, or name of shipped settings
+  std::string from;                  ///< first stage; empty = the settings' own
+  std::string static_markers;        ///< files; empty = not given
+  std::string static_markers_2;
+  std::string markers;
+  std::string ground_reaction;
+  std::string emg;
+  std::string model;
+  std::string coordinates;
+  double mass = 0;    ///< [kg]
+  double height = 0;  ///< [m]
+  std::string out;    ///< folder, created if absent
+  std::string models;
+};
+
+/// `gaitmill model`: what is in a model document.
+struct ModelOptions {
+  std::string path;  ///< empty = the model that ships with gaitmill
+  ModelReport report = ModelReport::kTable;
+  std::string models;
+};
+
+/// `gaitmill sample`: the sample trial as files.
+struct SampleOptionsOnDisk {
+  enum class Content { kRecorded, kWithTruth };
+  std::string out;
+  Content content = Content::kRecorded;
+  std::string models;
+};
+
+struct VersionOptions {};
+
+/// Nothing to run: help was asked for, or the command line is wrong.
+struct PrintAndExit {
+  std::string text;
+  int exit_code = 0;
+};
+
+using Command = std::variant<ServeConfig,
+                             RunOptions,
+                             ModelOptions,
+                             SampleOptionsOnDisk,
+                             VersionOptions,
+                             PrintAndExit>;
+
+/// What the process tells its caller.
+enum ExitCode : int {
+  kExitSuccess = 0,
+  kExitFailed = 1,    ///< an input is wrong, or a job failed
+  kExitUsage = 2,     ///< the command line is wrong
+  kExitInternal = 3,  ///< a fault of gaitmill itself, or of the machine
+};
+
+/// Reads the command line without the program's name, then GAITMILL_… variables for flags of
+/// `serve` that are not given. Never exits.
+Command parseCommandLine(const std::vector<std::string>& arguments);
+
+}  // namespace gaitmill

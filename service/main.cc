@@ -1,0 +1,84 @@
+#include <exception>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "service/command_line.h"
+#include "service/log.h"
+#include "service/model_command.h"
+#include "service/models_folder.h"
+#include "service/product_pipeline.h"
+#include "service/run_command.h"
+#include "service/sample_command.h"
+#include "service/service.h"
+#include "service/version.h"
+
+namespace gaitmill {
+namespace {
+
+int execute(ServeConfig config) {
+  setUpLog(config.log_level);
+  config.models = findModelsFolder(config.models);
+  return runService(config, makeProductPipeline());
+}
+
+int execute(const RunOptions& options) {
+  runOnFiles(options, makeProductPipeline(), std::cout, std::cerr);
+  return kExitSuccess;
+}
+
+int execute(const ModelOptions& options) {
+  const std::string path =
+      options.path.empty() ? findModelsFolder(options.models) + "/rajagopal2016/rajagopal2016.osim"
+                           : options.path;
+  std::cout << describeModel(path, options.report);
+  return kExitSuccess;
+}
+
+int execute(const SampleOptionsOnDisk& options) {
+  writeSample(options, std::cout);
+  return kExitSuccess;
+}
+
+int execute(const VersionOptions&) {
+  std::cout << "gaitmill " << kVersion << '\n';
+  return kExitSuccess;
+}
+
+int execute(const PrintAndExit& message) {
+  (message.exit_code == kExitSuccess ? std::cout : std::cerr) << message.text;
+  return message.exit_code;
+}
+
+int findExitCode(const Error& error) {
+  switch (error.code()) {
+    case ErrorCode::kUsage:
+      return kExitUsage;
+    case ErrorCode::kInternal:
+    case ErrorCode::kStorage:
+      return kExitInternal;
+    default:
+      return kExitFailed;
+  }
+}
+
+int runMain(const std::vector<std::string>& arguments) {
+  try {
+    return std::visit([](const auto& command) { return execute(command); },
+                      parseCommandLine(arguments));
+  } catch (const Error& error) {
+    std::cerr << "gaitmill: " << error.what() << '\n';
+    return findExitCode(error);
+  } catch (const std::exception& error) {
+    std::cerr << "gaitmill: " << error.what() << '\n';
+    return kExitInternal;
+  }
+}
+
+}  // namespace
+}  // namespace gaitmill
+
+int main(int argc, char** argv) {
+  return gaitmill::runMain({argv + 1, argv + argc});
+}

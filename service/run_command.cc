@@ -1,0 +1,118 @@
+#include "service/run_command.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <filesystem>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+#include "core/io/files.h"
+#include "service/models_folder.h"
+#include "service/settings_catalog.h"
+
+namespace gaitmill {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kStageOrder[] = {"scale", "ik", "rra", "id", "so", "cmc"};
+
+std::optional<InputFile> readOptional(const std::string& path) {
+  if (path.empty()) {
+    return std::nullopt;
+  }
+  return InputFile{std::filesystem::path(path).filename().string(), readFile(path)};
+}
+
+TrialInput readTrial(const RunOptions& options) {
+  TrialInput input;
+  input.static_markers = readOptional(options.static_markers);
+  input.static_markers_2 = readOptional(options.static_markers_2);
+  input.markers = readOptional(options.markers);
+  input.ground_reaction = readOptional(options.ground_reaction);
+  input.emg = readOptional(options.emg);
+  input.model = readOptional(options.model);
+  input.coordinates = readOptional(options.coordinates);
+  input.mass = options.mass;
+  input.height = options.height;
+  return input;
+}
+
+InputFile readSettings(const RunOptions& options) {
+  InputFile settings =
+      std::filesystem::is_regular_file(options.settings)
+          ? *readOptional(options.settings)
+          : SettingsCatalog(findModelsFolder(options.models)).find(options.settings);
+  return options.from.empty() ? settings
+                              : mergeSettings(settings, makeFirstStageSettings(options.from));
+}
+
+// One line when a stage begins.
+PipelineEvents makeEvents(std::ostream& progress) {
+  PipelineEvents events;
+  events.progress = [&progress, last = std::string()](Stage stage, double) mutable {
+    if (last != stageName(stage)) {
+      last = stageName(stage);
+      progress << last << " ...\n" << std::flush;
+    }
+    return true;
+  };
+  events.warn = [&progress](const std::string& warning) {
+    progress << "warning: " << warning << '\n';
+  };
+  return events;
+}
+
+std::string describeExtent(const json& stage) {
+  if (stage.contains("frames")) {
+    return stage["frames"].dump() + " frames";
+  }
+  return stage.contains("simulated_seconds") ? stage["simulated_seconds"].dump() + " s simulated"
+                                             : "";
+}
+
+void appendQuality(const json& value, const std::string& path, std::string& text) {
+  if (value.is_object()) {
+    for (const auto& [name, child] : value.items()) {
+      appendQuality(child, path.empty() ? name : path + "." + name, text);
+    }
+  } else if (value.is_number()) {
+    text += fmt::format("{:<62} {:>12.4g}\n", path, value.get<double>());
+  }
+}
+
+}  // namespace
+
+std::string formatSummary(const std::string& summary_json) {
+  const json summary = json::parse(summary_json);
+  const json stages = summary.value("stages", json::object());
+  std::string text = fmt::format("{:<8} {:>10}  {}\n", "stage", "seconds", "extent");
+  for (const char* name : kStageOrder) {
+    if (stages.contains(name)) {
+      const json& stage = stages[name];
+      text += fmt::format(
+          "{:<8} {:>10.3f}  {}\n", name, stage.value("seconds", 0.0), describeExtent(stage));
+    }
+  }
+  text += "\n";
+  appendQuality(summary.value("quality", json::object()), "", text);
+  return text;
+}
+
+void runOnFiles(const RunOptions& options,
+                const PipelineFunctions& functions,
+                std::ostream& out,
+                std::ostream& progress) {
+  const InputFile settings = readSettings(options);
+  functions.check_settings(settings);
+  const PipelineResult result = functions.run(readTrial(options), settings, makeEvents(progress));
+  for (const auto& [name, bytes] : result.files) {
+    writeFile(options.out + "/" + name, bytes);
+  }
+  out << formatSummary(result.summary_json);
+}
+
+}  // namespace gaitmill

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <ostream>
+
+#include "service/command_line.h"
+#include "service/pipeline_functions.h"
+
+namespace gaitmill {
+
+/// Reads the files, runs the pipeline, writes each result file in one step and prints a table of
+/// stages, seconds and quality figures.
+/// @param out       the table
+/// @param progress  stages as they begin, and warnings
+/// @throws Error of the files, the settings or a stage
+void runOnFiles(const RunOptions& options,
+                const PipelineFunctions& functions,
+                std::ostream& out,
+                std::ostream& progress);
+
+/// The table of a summary.json: one row per stage with its processor seconds and frames, then one
+/// row per quality figure.
+std::string formatSummary(const std::string& summary_json);
+
+}  // namespace gaitmill
