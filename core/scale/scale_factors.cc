@@ -95,6 +95,26 @@ BodyScale& getScale(const Model& model, const std::string& body, ScaleFactors& f
   return factors.bodies[static_cast<std::size_t>(model.getBody(body).value())];
 }
 
+// Pairs that disagree mean a misplaced marker, or two sides that differ.
+void warnOfDisagreement(const ScaleOptions& options,
+                        const MeasurementResult& result,
+                        std::vector<std::string>& warnings) {
+  const PairResult* smallest = nullptr;
+  const PairResult* largest = nullptr;
+  for (const PairResult& pair : result.pairs) {
+    if (pair.factor > 0) {
+      smallest = smallest == nullptr || pair.factor < smallest->factor ? &pair : smallest;
+      largest = largest == nullptr || pair.factor > largest->factor ? &pair : largest;
+    }
+  }
+  if (smallest != nullptr && largest->factor > options.warn_pair_ratio * smallest->factor) {
+    warnings.push_back("measurement '" + result.name + "': " + largest->first + " to " +
+                       largest->second + " asks for a factor of " +
+                       std::to_string(largest->factor) + ", " + smallest->first + " to " +
+                       smallest->second + " for " + std::to_string(smallest->factor));
+  }
+}
+
 void applyMeasurements(const Model& model,
                        const MarkerTrajectories& trial,
                        const ScaleOptions& options,
@@ -109,6 +129,7 @@ void applyMeasurements(const Model& model,
         }
       }
     }
+    warnOfDisagreement(options, result, factors.warnings);
     factors.measurements.push_back(std::move(result));
   }
 }

@@ -19,8 +19,9 @@ struct ScaleOptions {
   // Beyond these the result carries a warning (spec/scale.md 4, 7).
   double warn_factor_min = 0.7;
   double warn_factor_max = 1.4;
-  double warn_rms = 0.01;  ///< [m] of the static fit
-  double warn_max = 0.02;  ///< [m] of one weighted marker
+  double warn_pair_ratio = 1.06;  ///< largest over smallest pair factor of one measurement
+  double warn_rms = 0.01;         ///< [m] of the static fit
+  double warn_max = 0.02;         ///< [m] of one weighted marker
 
   /// Overrides for every muscle; absent = as the model document says.
   std::optional<double> max_contraction_velocity;  ///< [optimal fiber lengths / s]
