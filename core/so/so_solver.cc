@@ -132,7 +132,7 @@ void SoSolver::calcMuscleColumns() {
     const double length = paths_.lengths()[m];
     gains_[m] = options_.capacity == SoOptions::Capacity::kIsometric
                     ? muscle.maxIsometricForce()
-                    : muscle.calcRigidActiveForce(length, path_speeds_[m]);
+                    : muscle.calcRigidForceLine(length, path_speeds_[m]).gain;
     problem_.A.col(m) = gains_[m] * moment_arms_.row(m).transpose();
     if (options_.passive_force == SoOptions::PassiveForce::kOn) {
       const FiberState fiber = muscle.calcRigid(muscle.minimumActivation(), length, 0.0);
