@@ -22,7 +22,7 @@ struct MarkerTrajectories {
   int markerCount() const { return static_cast<int>(names.size()); }
   std::optional<int> findMarker(const std::string& name) const;
   Eigen::Vector3d position(int frame, int marker) const {
-    return positions.row(frame).segment<3>(3 * marker).transpose();
+    return positions.row(frame).segment<3>(Eigen::Index{3} * marker).transpose();
   }
   bool isMissing(int frame, int marker) const;
 };

@@ -110,11 +110,12 @@ std::optional<Family> makeNamedFamily(const std::vector<std::string>& labels,
   family.side = *side;
   family.force = *force;
   family.point = findTriple(labels, base, {"px", "py", "pz"}).value_or(family.point);
-  for (const std::string& torque : {prefix + "ground_torque_" + infix,
-                                    prefix + "ground_moment_" + infix,
-                                    prefix + "ground_torque_" + infix + "m",
-                                    prefix + "ground_moment_" + infix + "m",
-                                    base + "m"}) {
+  const std::array<std::string, 5> torque_stems = {prefix + "ground_torque_" + infix,
+                                                   prefix + "ground_moment_" + infix,
+                                                   prefix + "ground_torque_" + infix + "m",
+                                                   prefix + "ground_moment_" + infix + "m",
+                                                   base + "m"};
+  for (const std::string& torque : torque_stems) {
     if (const auto columns = findTriple(labels, torque, {"x", "y", "z"})) {
       family.torque = *columns;
       break;

@@ -1,10 +1,9 @@
 #include "core/io/model_table.h"
 
-#include <array>
-#include <charconv>
 #include <cstddef>
 #include <string_view>
 
+#include "core/base/text.h"
 #include "core/base/units.h"
 
 namespace gaitmill {
@@ -13,13 +12,11 @@ namespace {
 
 constexpr double kCentimetresPerMetre = 100.0;
 
+/// Without the sign of a zero.
 std::string fixed(double value, int decimals) {
-  std::array<char, 64> buffer = {};
-  const auto written = std::to_chars(
-      buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, decimals);
-  const std::string text(buffer.data(), written.ptr);
-  return text.find_first_not_of("-0.") == std::string::npos && text.front() == '-' ? text.substr(1)
-                                                                                   : text;
+  const std::string text = formatFixed(value, decimals);
+  const bool minus_zero = text.front() == '-' && text.find_first_not_of("-0.") == std::string::npos;
+  return minus_zero ? text.substr(1) : text;
 }
 
 std::string padLeft(const std::string& text, std::size_t width) {

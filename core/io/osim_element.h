@@ -83,6 +83,7 @@ class OsimDocument {
   OsimDocument(std::string_view bytes, const std::string& file_name);
   OsimDocument(const OsimDocument&) = delete;
   OsimDocument& operator=(const OsimDocument&) = delete;
+  ~OsimDocument() = default;
 
   int version() const { return version_; }
   /// First child of the root with that tag, for instance "Model" or "MarkerSet".

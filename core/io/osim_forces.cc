@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/base/units.h"
+#include "core/io/number_text.h"
 #include "core/io/osim_joints.h"
 
 namespace gaitmill {
@@ -71,9 +72,8 @@ double readField(const OsimElement& muscle, const MuscleField& field) {
     const OsimElement place = muscle.property(field.tag);
     (place ? place : muscle)
         .fail(ErrorCode::kMuscleParameter,
-              muscle.describe() + ": " + field.tag + " is " + std::to_string(value) +
-                  ", expected " + (field.minimum_allowed ? ">= " : "> ") +
-                  std::to_string(field.minimum));
+              muscle.describe() + ": " + field.tag + " is " + formatNumber(value) + ", expected " +
+                  (field.minimum_allowed ? ">= " : "> ") + formatNumber(field.minimum));
   }
   return value;
 }

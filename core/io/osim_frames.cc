@@ -49,8 +49,7 @@ void OsimFrames::addOffsetFrames(const std::string& owner, const std::vector<Osi
   for (const OsimElement& frame : frames) {
     const std::string name = frame.requireName();
     if (!offset_frames_.emplace(Key{owner, name}, frame).second) {
-      frame.fail(ErrorCode::kModelDuplicateName,
-                 "'" + owner + "' already owns a frame '" + name + "'");
+      frame.fail(ErrorCode::kModelDuplicateName, "its owner has another frame of this name");
     }
   }
 }
@@ -112,7 +111,7 @@ PathPointSpec OsimFrames::resolvePoint(const OsimElement& socket,
 }
 
 std::string OsimFrames::resolveBody(const OsimElement& reference) const {
-  const std::string name = lastComponent(reference.ownText());
+  std::string name = lastComponent(reference.ownText());
   if (name != "ground" && bodies_.count(name) == 0) {
     failUnknown(reference);
   }

@@ -125,7 +125,9 @@ std::string writeTrc(const MarkerTrajectories& markers, const std::string& file_
   for (int marker = 0; marker < markers.markerCount(); ++marker) {
     text += "\t" + markers.names[static_cast<std::size_t>(marker)] + "\t\t";
     const std::string number = std::to_string(marker + 1);
-    axes += "\tX" + number + "\tY" + number + "\tZ" + number;
+    for (const char* axis : {"\tX", "\tY", "\tZ"}) {
+      axes.append(axis).append(number);
+    }
   }
   text += "\n" + axes + "\n\n";
   for (int frame = 0; frame < markers.frameCount(); ++frame) {

@@ -382,7 +382,7 @@ void TrcParser::compareCounts() {
 
 void TrcParser::fillPositions() {
   file_.markers.positions = Eigen::Map<const RowMatrix>(
-      values_.data(), file_.markers.frameCount(), 3 * file_.markers.markerCount());
+      values_.data(), file_.markers.frameCount(), Eigen::Index{3} * file_.markers.markerCount());
 }
 
 }  // namespace
