@@ -20,10 +20,10 @@ struct RunOptions {
   std::string emg;
   std::string model;
   std::string coordinates;
-  double mass = 0;    ///< [kg]
-  double height = 0;  ///< [m]
-  std::string out;    ///< folder, created if absent
-  std::string models;
+  double mass = 0;     ///< [kg]
+  double height = 0;   ///< [m]
+  std::string out;     ///< folder, created if absent
+  std::string models;  ///< folder
 };
 
 /// `gaitmill model`: what is in a model document.

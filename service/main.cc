@@ -20,11 +20,12 @@ namespace {
 int execute(ServeConfig config) {
   setUpLog(config.log_level);
   config.models = findModelsFolder(config.models);
-  return runService(config, makeProductPipeline());
+  return runService(config, makeProductPipeline(config.models));
 }
 
-int execute(const RunOptions& options) {
-  runOnFiles(options, makeProductPipeline(), std::cout, std::cerr);
+int execute(RunOptions options) {
+  options.models = findModelsFolder(options.models);
+  runOnFiles(options, makeProductPipeline(options.models), std::cout, std::cerr);
   return kExitSuccess;
 }
 

@@ -15,8 +15,19 @@ std::string encodeSto(const TimeSeries& table, api::AngleUnit angles) {
 
 }  // namespace
 
-PipelineFunctions makeProductPipeline() {
-  return {runPipeline, checkSettings, inspectTrial, encodeSto};
+PipelineFunctions makeProductPipeline(const std::string& models_folder) {
+  const Pipeline pipeline(models_folder);
+  PipelineFunctions functions;
+  functions.run =
+      [pipeline](const TrialInput& input, const InputFile& settings, const PipelineEvents& events) {
+        return pipeline.run(input, settings, events);
+      };
+  functions.check_settings = [pipeline](const InputFile& settings) {
+    pipeline.checkSettings(settings);
+  };
+  functions.inspect = inspectTrial;
+  functions.encode_sto = encodeSto;
+  return functions;
 }
 
 }  // namespace gaitmill

@@ -9,7 +9,6 @@
 
 #include "core/base/error.h"
 #include "core/io/files.h"
-#include "service/models_folder.h"
 #include "service/settings_catalog.h"
 
 namespace gaitmill {
@@ -42,10 +41,9 @@ TrialInput readTrial(const RunOptions& options) {
 }
 
 InputFile readSettings(const RunOptions& options) {
-  InputFile settings =
-      std::filesystem::is_regular_file(options.settings)
-          ? *readOptional(options.settings)
-          : SettingsCatalog(findModelsFolder(options.models)).find(options.settings);
+  InputFile settings = std::filesystem::is_regular_file(options.settings)
+                           ? *readOptional(options.settings)
+                           : SettingsCatalog(options.models).find(options.settings);
   return options.from.empty() ? settings
                               : mergeSettings(settings, makeFirstStageSettings(options.from));
 }

@@ -71,7 +71,7 @@ InputFile makeMarkerSetSettings(const std::string& marker_set) {
 }
 
 InputFile makeFirstStageSettings(const std::string& stage) {
-  return {"--from", json{{"from", stage}}.dump()};
+  return {"--from", json{{"stages", {{"first", stage}}}}.dump()};
 }
 
 }  // namespace gaitmill

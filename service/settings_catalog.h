@@ -28,7 +28,7 @@ InputFile mergeSettings(const InputFile& base, const InputFile& changes);
 /// The settings document that chooses a marker set: {"scale": {"marker_set": name}}.
 InputFile makeMarkerSetSettings(const std::string& marker_set);
 
-/// The settings document that chooses the first stage: {"from": stage}.
+/// The settings document that chooses the first stage: {"stages": {"first": stage}}.
 InputFile makeFirstStageSettings(const std::string& stage);
 
 }  // namespace gaitmill
