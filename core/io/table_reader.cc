@@ -225,6 +225,9 @@ void TableParser::readLabels() {
          "the first column is '" + first + "', expected 'time'",
          cells_.front().column);
   }
+  if (const std::string& unit = file_.table.units.front(); !unit.empty() && unit != "s") {
+    fail(ErrorCode::kTableLabels, "time is in '" + unit + "', expected s", cells_.front().column);
+  }
   file_.table.labels.erase(file_.table.labels.begin());
   file_.table.units.erase(file_.table.units.begin());
   file_.label_columns.erase(file_.label_columns.begin());
@@ -411,6 +414,18 @@ Where whereLabel(const TableFile& file, std::size_t column) {
   return {file.file_name, file.label_line, file.label_columns[column], file.table.labels[column]};
 }
 
+// A unit at the column's own label beats the file's header.
+bool isInDegrees(const TableFile& file,
+                 std::size_t column,
+                 const std::string& coordinate,
+                 const ModelSpec& model) {
+  const std::string unit = file.table.units.empty() ? "" : file.table.units[column];
+  if (!unit.empty()) {
+    return unit == "deg";
+  }
+  return file.in_degrees && findMotionKind(model, coordinate) == MotionKind::kRotational;
+}
+
 [[noreturn]] void failUnknownLabel(const TableFile& file,
                                    std::size_t column,
                                    const ModelSpec& model) {
@@ -458,10 +473,10 @@ TimeSeries toCoordinates(const TableFile& file,
           {file.file_name, file.label_line, 1, {}});
   result.values.resize(result.rowCount(), result.columnCount());
   for (Eigen::Index i = 0; i < result.values.cols(); ++i) {
-    const std::string& name = result.labels[static_cast<std::size_t>(i)];
-    const bool convert = file.in_degrees && findMotionKind(model, name) == MotionKind::kRotational;
-    result.values.col(i) = file.table.values.col(sources[static_cast<std::size_t>(i)]) *
-                           (convert ? kRadiansPerDegree : 1.0);
+    const Eigen::Index source = sources[static_cast<std::size_t>(i)];
+    const bool convert = isInDegrees(
+        file, static_cast<std::size_t>(source), result.labels[static_cast<std::size_t>(i)], model);
+    result.values.col(i) = file.table.values.col(source) * (convert ? kRadiansPerDegree : 1.0);
   }
   return result;
 }
