@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "core/analysis/gait_cycle.h"
 #include "core/cmc/cmc_result.h"
 #include "core/data/ground_reaction.h"
 #include "core/data/marker_trajectories.h"
@@ -13,6 +12,7 @@
 #include "core/data/time_series.h"
 #include "core/id/id_result.h"
 #include "core/ik/ik_result.h"
+#include "core/math/events.h"
 #include "core/pipeline/pipeline.h"
 #include "core/pipeline/settings.h"
 #include "core/rra/rra_result.h"
@@ -21,8 +21,9 @@
 
 namespace gaitmill {
 
-/// One run of the recipe: settings, input, and what each stage left behind. Private to core/pipeline.
-/// Stages fill their own member and never touch an earlier one; a member is empty until its stage ran.
+/// One run of the recipe: settings, input, and what each stage left behind. Private to
+/// core/pipeline. Stages fill their own member and never touch an earlier one; a member is empty
+/// until its stage ran.
 struct Job {
   const TrialInput* input = nullptr;
   const PipelineEvents* events = nullptr;
@@ -61,8 +62,8 @@ Job openJob(const TrialInput& input,
 /// Runs one stage on what the job has. @throws Error with the stage as context
 void runStage(Stage stage, Job& job);
 
-/// The gait cycle of the right foot: as set, else the first two strikes in the forces; empty if there
-/// are none.
+/// The gait cycle of the right foot: as set, else the first two strikes in the forces; empty if
+/// there are none.
 std::optional<GaitCycle> findGaitCycle(const Job& job);
 
 /// Tables and files of a finished job, without the summary.

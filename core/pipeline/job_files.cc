@@ -3,7 +3,6 @@
 #include <string>
 
 #include "core/analysis/acceptance.h"
-#include "core/analysis/gait_cycle.h"
 #include "core/io/osim_writer.h"
 #include "core/io/table_writer.h"
 #include "core/math/events.h"
@@ -24,12 +23,15 @@ TimeSeries joinColumns(const std::string& name, const TimeSeries& left, const Ti
   return joined;
 }
 
-TimeSeries pickColumns(const std::string& name, const TimeSeries& table, const std::vector<std::string>& labels) {
+TimeSeries pickColumns(const std::string& name,
+                       const TimeSeries& table,
+                       const std::vector<std::string>& labels) {
   TimeSeries picked = makeTimeSeries(name, {}, table.time);
   for (const std::string& label : labels) {
     if (const std::optional<int> column = table.findColumn(label)) {
       picked.labels.push_back(label);
-      picked.units.push_back(table.units.empty() ? "" : table.units[static_cast<std::size_t>(*column)]);
+      picked.units.push_back(table.units.empty() ? ""
+                                                 : table.units[static_cast<std::size_t>(*column)]);
       picked.values.conservativeResize(table.rowCount(), picked.columnCount());
       picked.values.col(picked.columnCount() - 1) = table.values.col(*column);
     }
@@ -62,13 +64,16 @@ TimeSeries makeMoments(const Job& job) {
   }
   beside.values.resize(moments.rowCount(), beside.columnCount());
   for (int row = 0; row < moments.rowCount(); ++row) {
-    beside.values.row(row) = muscle.interpolate(moments.time[static_cast<std::size_t>(row)]).transpose();
+    beside.values.row(row) =
+        muscle.interpolate(moments.time[static_cast<std::size_t>(row)]).transpose();
   }
   return joinColumns("moments", moments, beside);
 }
 
 /// Coordinates as later stages saw them.
-const TimeSeries& findKinematics(const Job& job) { return job.cmc ? job.cmc->pose : job.motion; }
+const TimeSeries& findKinematics(const Job& job) {
+  return job.cmc ? job.cmc->pose : job.motion;
+}
 
 std::string writeMotion(const TimeSeries& coordinates, const ModelSpec& model) {
   TableWriteOptions options;
@@ -96,7 +101,8 @@ void addStageTables(const Job& job, PipelineResult& result) {
   if (job.cmc) {
     result.tables["residuals"] = pickColumns("residuals", job.cmc->actuator_force, residuals);
   } else if (job.rra) {
-    result.tables["residuals"] = pickColumns("residuals", job.rra->passes.back().actuator_forces, residuals);
+    result.tables["residuals"] =
+        pickColumns("residuals", job.rra->passes.back().actuator_forces, residuals);
   }
 }
 

@@ -23,7 +23,9 @@ void Job::warn(const std::string& sentence) {
 
 namespace {
 
-const InputFile& needFile(const std::optional<InputFile>& file, const char* role, const char* reason) {
+const InputFile& needFile(const std::optional<InputFile>& file,
+                          const char* role,
+                          const char* reason) {
   require(file.has_value(),
           ErrorCode::kInputMissing,
           std::string("a file is missing: ") + role + ", " + reason,
@@ -47,9 +49,11 @@ MarkerTrajectories openMarkers(const InputFile& file, Job& job) {
 }
 
 /// Force and moment about the ground origin through the critically damped filter. The point then is
-/// the origin and the torque the moment: filtering a centre of pressure is meaningless off the plate.
+/// the origin and the torque the moment: filtering a centre of pressure is meaningless off the
+/// plate.
 void filterForces(double cutoff, double threshold, GroundReaction& reaction) {
-  const double rate = static_cast<double>(reaction.time.size() - 1) / (reaction.time.back() - reaction.time.front());
+  const double rate = static_cast<double>(reaction.time.size() - 1) /
+                      (reaction.time.back() - reaction.time.front());
   for (ExternalForce& force : reaction.forces) {
     const int n = static_cast<int>(force.force.cols());
     RowMatrix columns = RowMatrix::Zero(n, 6);
@@ -80,7 +84,8 @@ void openForces(Job& job) {
   }
   job.reaction = readGroundReaction(table, job.settings.forces.reading);
   if (job.settings.forces.lowpass_cutoff) {
-    filterForces(*job.settings.forces.lowpass_cutoff, job.settings.forces.reading.threshold, job.reaction);
+    filterForces(
+        *job.settings.forces.lowpass_cutoff, job.settings.forces.reading.threshold, job.reaction);
   }
 }
 
@@ -103,17 +108,19 @@ void openMotion(Job& job) {
   const bool measured = job.settings.runs(Stage::kIk);
   if (measured) {
     job.markers = openMarkers(
-        needFile(job.input->markers, "markers", "inverse kinematics needs the movement's markers"), job);
+        needFile(job.input->markers, "markers", "inverse kinematics needs the movement's markers"),
+        job);
     return;
   }
   if (job.settings.last <= Stage::kIk) {
     return;
   }
-  const InputFile& file =
-      needFile(job.input->coordinates, "coordinates", "they are needed where inverse kinematics is not run");
+  const InputFile& file = needFile(
+      job.input->coordinates, "coordinates", "they are needed where inverse kinematics is not run");
   std::vector<std::string> ignored;
-  job.measured_coordinates = toCoordinates(
-      readTable(file.bytes, file.name), job.scaled.joints.empty() ? job.generic : job.scaled, &ignored);
+  job.measured_coordinates = toCoordinates(readTable(file.bytes, file.name),
+                                           job.scaled.joints.empty() ? job.generic : job.scaled,
+                                           &ignored);
   for (const std::string& label : ignored) {
     job.warn(file.name + ": column '" + label + "' is no coordinate of the model and is ignored");
   }
@@ -134,14 +141,15 @@ Job openJob(const TrialInput& input,
   openModels(job);
   if (job.settings.runs(Stage::kScale)) {
     needPositive(input.mass, "mass", "kilograms");
-    job.static_poses.push_back(
-        openMarkers(needFile(input.static_markers, "static", "scaling measures a static trial"), job));
+    job.static_poses.push_back(openMarkers(
+        needFile(input.static_markers, "static", "scaling measures a static trial"), job));
     if (input.static_markers_2) {
       job.static_poses.push_back(openMarkers(*input.static_markers_2, job));
     }
   }
   const bool adjusts = job.settings.runs(Stage::kRra) || job.settings.runs(Stage::kScale);
-  if (adjusts && job.settings.strength_law != StrengthLaw::kNone && job.settings.last >= Stage::kSo) {
+  if (adjusts && job.settings.strength_law != StrengthLaw::kNone &&
+      job.settings.last >= Stage::kSo) {
     needPositive(input.mass, "mass", "kilograms");
     needPositive(job.settings.strength_height.value_or(input.height), "height", "metres");
   }

@@ -40,7 +40,9 @@ Progress makeProgress(Stage stage, const Job& job) {
   if (!job.events->progress) {
     return {};
   }
-  return [stage, events = job.events](double fraction) { return events->progress(stage, fraction); };
+  return [stage, events = job.events](double fraction) {
+    return events->progress(stage, fraction);
+  };
 }
 
 void takeWarnings(const char* stage, const std::vector<std::string>& warnings, Job& job) {
@@ -86,7 +88,9 @@ void runIk(Job& job) {
 }
 
 /// The interval in which kinematics and forces both exist, within what was asked.
-TimeRange findCommonRange(const TimeRange& asked, const TimeSeries& motion, const GroundReaction& reaction) {
+TimeRange findCommonRange(const TimeRange& asked,
+                          const TimeSeries& motion,
+                          const GroundReaction& reaction) {
   TimeRange range;
   range.start = std::max(asked.start, motion.time.front());
   range.end = std::min(asked.end, motion.time.back());
@@ -96,17 +100,21 @@ TimeRange findCommonRange(const TimeRange& asked, const TimeSeries& motion, cons
   }
   require(range.start < range.end,
           ErrorCode::kInputTimeRange,
-          "kinematics (" + std::to_string(motion.time.front()) + " to " + std::to_string(motion.time.back()) +
+          "kinematics (" + std::to_string(motion.time.front()) + " to " +
+              std::to_string(motion.time.back()) +
               " s) and forces have no time in common with the range asked for");
   return range;
 }
 
-std::vector<RraWeight> makeWeights(const CoordinateValues& values, const ModelSpec& model) {
-  std::vector<RraWeight> weights;
-  for (const auto& [coordinate, weight] : expandSides(values, model)) {
-    weights.push_back({coordinate, weight});
+std::vector<TrackingTask> makeTasks(const CoordinateValues& weights, const ModelSpec& model) {
+  std::vector<TrackingTask> tasks;
+  for (const auto& [coordinate, weight] : expandSides(weights, model)) {
+    TrackingTask task;
+    task.coordinate = coordinate;
+    task.weight = weight;
+    tasks.push_back(task);
   }
-  return weights;
+  return tasks;
 }
 
 RraOptions makeRraOptions(const Job& job) {
@@ -115,32 +123,35 @@ RraOptions makeRraOptions(const Job& job) {
   options.lowpass_cutoff = settings.lowpass_cutoff;
   options.actuators = makeActuators(settings.actuators, job.scaled);
   options.adjusted_body = settings.adjusted_body;
-  options.inertia = settings.inertia;
+  options.inertia_scaling = settings.inertia;
   options.max_passes = settings.max_passes;
   options.mass_tolerance = settings.mass_tolerance;
-  options.center_tolerance = settings.center_tolerance;
+  options.mass_center_tolerance = settings.center_tolerance;
   for (const RraSettings::Pass& pass : settings.passes) {
     const TimeRange range = findCommonRange(
         pass.range.value_or(settings.range), job.measured_coordinates, job.reaction);
-    options.passes.push_back({range.start, range.end, makeWeights(pass.weights, job.scaled)});
+    options.passes.push_back({range.start, range.end, makeTasks(pass.weights, job.scaled)});
   }
   return options;
 }
 
 void runRra(Job& job) {
-  job.rra = solveRra(
-      job.scaled, job.measured_coordinates, job.reaction, makeRraOptions(job), makeProgress(Stage::kRra, job));
-  job.adjusted = job.rra->model;
+  job.rra = solveRra(job.scaled,
+                     job.measured_coordinates,
+                     job.reaction,
+                     makeRraOptions(job),
+                     makeProgress(Stage::kRra, job));
+  job.adjusted = job.rra->passes.back().adjusted_model;
   job.motion = job.rra->passes.back().coordinates;
-  takeWarnings("rra", job.rra->warnings, job);
 }
 
-/// Strength belongs behind residual reduction, which settles the mass (spec/scale.md 5). A model that
-/// comes in later is taken as it is.
+/// Strength belongs behind residual reduction, which settles the mass (spec/scale.md 5). A model
+/// that comes in later is taken as it is.
 void adjustMuscles(Job& job) {
   const PipelineSettings& settings = job.settings;
   if (settings.strength_law != StrengthLaw::kNone) {
-    const BodySize subject{job.adjusted.calcTotalMass(), settings.strength_height.value_or(job.input->height)};
+    const BodySize subject{job.adjusted.calcTotalMass(),
+                           settings.strength_height.value_or(job.input->height)};
     scaleStrength(job.generic, settings.strength_law, subject, job.adjusted);
   }
   for (MuscleSpec& muscle : job.adjusted.muscles) {
@@ -221,8 +232,8 @@ void runCmc(Job& job) {
   CmcOptions options = job.settings.cmc;
   const TimeRange range = findCommonRange(job.settings.cmc_range, job.motion, job.reaction);
   options.start_time = range.start;
-  // The reference ends one integration row early where residual reduction made it; what was asked for
-  // counts as long as the padded reference covers it.
+  // The reference ends one integration row early where residual reduction made it; what was asked
+  // for counts as long as the padded reference covers it.
   options.end_time = std::isfinite(job.settings.cmc_range.end)
                          ? std::min(job.settings.cmc_range.end, range.end + options.window)
                          : range.end;

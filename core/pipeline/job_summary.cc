@@ -17,7 +17,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// JSON has no NaN: a figure that does not exist is null.
-Json toJson(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json toJson(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
 
 Json summarizeMoment(const MomentComparison& moment) {
   return {{"rmse_nm", toJson(moment.rmse)},
@@ -41,14 +43,16 @@ Json summarizeTracking(const TrackingError& error) {
           {"worst_translation", error.worst_translation}};
 }
 
-Json summarizeActuators(const std::vector<ActuatorStatistics>& statistics, const std::vector<ActuatorSpec>& specs) {
+Json summarizeActuators(const std::vector<ActuatorStatistics>& statistics,
+                        const std::vector<ActuatorSpec>& specs) {
   Json summary = Json::object();
   for (const ActuatorStatistics& entry : statistics) {
     std::string unit = "nm";
     for (const ActuatorSpec& spec : specs) {
       unit = spec.name == entry.name && spec.kind == ActuatorSpec::Kind::kPoint ? "n" : unit;
     }
-    summary[entry.name] = {{"peak_" + unit, toJson(entry.peak)}, {"rms_" + unit, toJson(entry.rms)}};
+    summary[entry.name] = {{"peak_" + unit, toJson(entry.peak)},
+                           {"rms_" + unit, toJson(entry.rms)}};
   }
   return summary;
 }
@@ -89,7 +93,8 @@ Json summarizeStages(const Job& job) {
   if (job.cmc) {
     const double simulated = job.cmc->pose.time.back() - job.cmc->pose.time.front();
     stages["cmc"]["simulated_seconds"] = simulated;
-    stages["cmc"]["real_time_factor"] = job.seconds[static_cast<std::size_t>(Stage::kCmc)] / simulated;
+    stages["cmc"]["real_time_factor"] =
+        job.seconds[static_cast<std::size_t>(Stage::kCmc)] / simulated;
     stages["cmc"]["windows"] = job.cmc->counters.windows;
   }
   return stages;
@@ -117,14 +122,23 @@ Json summarizeScale(const ScaleResult& scale) {
   return {{"factors", factors}, {"mass_kg", toJson(scale.mass)}, {"placements", placements}};
 }
 
+Json summarizeResiduals(const ResidualSum& sum) {
+  return {{"force_n", {sum.force.x(), sum.force.y(), sum.force.z()}},
+          {"moment_nm", {sum.moment.x(), sum.moment.y(), sum.moment.z()}}};
+}
+
 Json summarizeRra(const RraResult& rra) {
   Json passes = Json::array();
   for (const RraPassResult& pass : rra.passes) {
-    passes.push_back({{"mass_before_kg", toJson(pass.mass_before)},
-                      {"mass_change_kg", toJson(pass.mass_change)},
-                      {"center_shift_x_m", toJson(pass.center_shift_x)},
-                      {"center_shift_z_m", toJson(pass.center_shift_z)},
-                      {"tracking", summarizeTracking(calcTrackingError(pass.tracking_error))}});
+    passes.push_back(
+        {{"mass_before_kg", toJson(pass.adjustment.mass_before)},
+         {"mass_change_kg", toJson(pass.adjustment.mass_change)},
+         {"center_shift_x_m", toJson(pass.adjustment.shift_x)},
+         {"center_shift_z_m", toJson(pass.adjustment.shift_z)},
+         {"average_residuals_before", summarizeResiduals(pass.adjustment.average_before)},
+         {"average_residuals_after", summarizeResiduals(pass.adjustment.average_after)},
+         {"peak_residuals", summarizeResiduals(pass.residuals.peak)},
+         {"tracking", summarizeTracking(calcTrackingError(pass.tracking_errors))}});
   }
   return passes;
 }
@@ -135,7 +149,8 @@ std::vector<MomentComparison> compareAllMoments(const Job& job) {
     return moments;
   }
   const TimeSeries& muscle = job.cmc->muscle_moment;
-  const GaitCycle cycle = findGaitCycle(job).value_or(GaitCycle{muscle.time.front(), muscle.time.back()});
+  const GaitCycle cycle =
+      findGaitCycle(job).value_or(GaitCycle{muscle.time.front(), muscle.time.back()});
   for (const ComparedMoment& moment : paperMoments()) {
     if (muscle.findColumn(moment.coordinate)) {
       moments.push_back(compareMoments(job.id->generalized_forces, muscle, moment, cycle));
@@ -146,7 +161,8 @@ std::vector<MomentComparison> compareAllMoments(const Job& job) {
 
 const RraPassResult& findReportedPass(const Job& job) {
   const auto count = static_cast<int>(job.rra->passes.size());
-  const int pass = job.settings.id_pass >= 1 && job.settings.id_pass <= count ? job.settings.id_pass : count;
+  const int pass =
+      job.settings.id_pass >= 1 && job.settings.id_pass <= count ? job.settings.id_pass : count;
   return job.rra->passes[static_cast<std::size_t>(pass - 1)];
 }
 
@@ -168,7 +184,8 @@ Json summarizeQuality(const Job& job) {
     quality["markers"] = summarizeMarkers(*job.ik);
   }
   if (job.rra) {
-    quality["tracking"]["rra"] = summarizeTracking(calcTrackingError(findReportedPass(job).tracking_error));
+    quality["tracking"]["rra"] =
+        summarizeTracking(calcTrackingError(findReportedPass(job).tracking_errors));
   }
   if (job.cmc) {
     const std::vector<ActuatorSpec>& actuators = job.cmc->options.actuators;
@@ -184,7 +201,8 @@ Json summarizeQuality(const Job& job) {
     quality["moments"][moment.coordinate] = summarizeMoment(moment);
   }
   if (!moments.empty()) {
-    quality["moments"]["fraction_of_instants_at_90_percent"] = toJson(calcFractionAt90Percent(moments));
+    quality["moments"]["fraction_of_instants_at_90_percent"] =
+        toJson(calcFractionAt90Percent(moments));
   }
   return quality;
 }
@@ -203,7 +221,7 @@ std::string makeSummary(const Job& job) {
     summary["rra_passes"] = summarizeRra(*job.rra);
   }
   if (const std::optional<GaitCycle> cycle = findGaitCycle(job)) {
-    summary["gait_cycle_s"] = {cycle->first_strike, cycle->second_strike};
+    summary["gait_cycle_s"] = {cycle->start, cycle->end};
   }
   summary["warnings"] = job.warnings;
   return summary.dump(2) + "\n";

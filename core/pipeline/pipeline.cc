@@ -12,11 +12,14 @@ namespace gaitmill {
 
 namespace {
 
-constexpr std::array<const char*, kStageCount> kStageNames = {"scale", "ik", "rra", "id", "so", "cmc"};
+constexpr std::array<const char*, kStageCount> kStageNames = {
+    "scale", "ik", "rra", "id", "so", "cmc"};
 
 }  // namespace
 
-const char* stageName(Stage stage) { return kStageNames[static_cast<std::size_t>(stage)]; }
+const char* stageName(Stage stage) {
+  return kStageNames[static_cast<std::size_t>(stage)];
+}
 
 Stage parseStage(const std::string& name) {
   std::string known;
@@ -27,12 +30,15 @@ Stage parseStage(const std::string& name) {
     }
     known += (i == 0 ? "" : ", ") + std::string(stageName(stage));
   }
-  throw Error(ErrorCode::kSettingsValue, "there is no stage '" + name + "'; expected one of " + known);
+  throw Error(ErrorCode::kSettingsValue,
+              "there is no stage '" + name + "'; expected one of " + known);
 }
 
 Pipeline::Pipeline(std::string models_folder) : models_folder_(std::move(models_folder)) {}
 
-void Pipeline::checkSettings(const InputFile& settings_json) const { readSettings(settings_json); }
+void Pipeline::checkSettings(const InputFile& settings_json) const {
+  readSettings(settings_json);
+}
 
 PipelineResult Pipeline::run(const TrialInput& input,
                              const InputFile& settings_json,

@@ -23,10 +23,10 @@ struct TrialInput {
   std::optional<InputFile> markers;           ///< TRC, the movement
   std::optional<InputFile> ground_reaction;   ///< MOT/STO
   std::optional<InputFile> emg;               ///< STO/CSV envelopes, for comparison only
-  std::optional<InputFile> model;             ///< .osim: generic model, or scaled if scale is skipped
-  std::optional<InputFile> coordinates;       ///< MOT/STO, to start after IK
-  double mass = 0;                            ///< [kg]
-  double height = 0;                          ///< [m]
+  std::optional<InputFile> model;        ///< .osim: generic model, or scaled if scale is skipped
+  std::optional<InputFile> coordinates;  ///< MOT/STO, to start after IK
+  double mass = 0;                       ///< [kg]
+  double height = 0;                     ///< [m]
 };
 
 enum class Stage { kScale, kIk, kRra, kId, kSo, kCmc };
@@ -52,7 +52,8 @@ struct PipelineResult {
   /// Tables by result name: "moments", "activations", "forces", "kinematics", "residuals". Units in
   /// the table; angles in radians (converted at the edge).
   std::map<std::string, TimeSeries> tables;
-  /// The same tables on 0..100 % of the gait cycle (column "percent" is `time`), where a cycle exists.
+  /// The same tables on 0..100 % of the gait cycle (column "percent" is `time`), where a cycle
+  /// exists.
   std::map<std::string, TimeSeries> cycle_tables;
   /// stages, quality, settings used, warnings: the content of summary.json.
   std::string summary_json;
@@ -67,7 +68,8 @@ class Pipeline {
   explicit Pipeline(std::string models_folder = "models");
 
   /// Runs the stages that the settings ask for ("stages": {"first": "rra", "last": "cmc"}).
-  /// @param settings_json  a document like models/settings/default.json; absent fields take defaults
+  /// @param settings_json  a document like models/settings/default.json; absent fields take
+  /// defaults
   /// @throws Error of any stage, with the stage as context; kSettings... naming the field
   PipelineResult run(const TrialInput& input,
                      const InputFile& settings_json,

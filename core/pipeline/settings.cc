@@ -33,15 +33,16 @@ void readChoice(JsonFields& fields,
   fields.refuse(name, "found '" + word + "', expected one of " + known);
 }
 
-void readNumber(JsonFields& fields, const std::string& name, double low, double high, double& value) {
+void readNumber(
+    JsonFields& fields, const std::string& name, double low, double high, double& value) {
   if (!fields.has(name)) {
     return;
   }
   const double found = fields.number(name);
   if (!(found >= low && found <= high)) {
     fields.refuse(name,
-                  "found " + std::to_string(found) + ", expected a number from " + std::to_string(low) +
-                      " to " + std::to_string(high));
+                  "found " + std::to_string(found) + ", expected a number from " +
+                      std::to_string(low) + " to " + std::to_string(high));
   }
   value = found;
 }
@@ -149,8 +150,10 @@ void readTrialFiles(JsonFields fields, PipelineSettings& settings) {
              settings.trc.prefixes);
   readNumber(fields, "force_threshold_n", 0, 500, settings.forces.reading.threshold);
   readOptional(fields, "force_lowpass_cutoff_hz", 0.1, 1000, settings.forces.lowpass_cutoff);
-  settings.forces.reading.right_body = fields.text("right_foot_body", settings.forces.reading.right_body);
-  settings.forces.reading.left_body = fields.text("left_foot_body", settings.forces.reading.left_body);
+  settings.forces.reading.right_body =
+      fields.text("right_foot_body", settings.forces.reading.right_body);
+  settings.forces.reading.left_body =
+      fields.text("left_foot_body", settings.forces.reading.left_body);
   for (JsonFields& plate : fields.objects("plates")) {
     settings.forces.reading.plates.push_back({plate.text("family"), plate.text("body")});
     plate.finish();
@@ -223,10 +226,11 @@ void readId(JsonFields fields, PipelineSettings& settings) {
 
 void readSo(JsonFields fields, PipelineSettings& settings) {
   readNumber(fields, "exponent", 1, 10, settings.so.exponent);
-  settings.so.capacity = fields.flag("force_length_velocity", true) ? SoOptions::Capacity::kForceLengthVelocity
-                                                                    : SoOptions::Capacity::kIsometric;
-  settings.so.passive_force =
-      fields.flag("passive_force", false) ? SoOptions::PassiveForce::kOn : SoOptions::PassiveForce::kOff;
+  settings.so.capacity = fields.flag("force_length_velocity", true)
+                             ? SoOptions::Capacity::kForceLengthVelocity
+                             : SoOptions::Capacity::kIsometric;
+  settings.so.passive_force = fields.flag("passive_force", false) ? SoOptions::PassiveForce::kOn
+                                                                  : SoOptions::PassiveForce::kOff;
   settings.so.range = readRange(fields, "time_range_s").value_or(settings.so.range);
   readNumber(fields, "row_interval_s", 0, 10, settings.so_interval);
   readActuators(fields, settings.so_actuators);
@@ -263,7 +267,10 @@ void readCmc(JsonFields fields, PipelineSettings& settings) {
       fields.flag("equilibrate_at_default_pose", cmc.equilibrate_at_default_pose);
   readNumber(fields, "integration_step_s", 1e-5, 0.1, cmc.integration_step);
   readNumber(fields, "excitation_tolerance", 1e-12, 0.1, cmc.excitation_tolerance);
-  readChoice(fields, "solver", {{"dual", CmcQpSolver::kDual}, {"ipopt", CmcQpSolver::kIpopt}}, cmc.qp_solver);
+  readChoice(fields,
+             "solver",
+             {{"dual", CmcQpSolver::kDual}, {"ipopt", CmcQpSolver::kIpopt}},
+             cmc.qp_solver);
   if (fields.has("excitation_limits")) {
     cmc.excitation_limits = readExcitationLimits(fields);
   }
@@ -345,7 +352,8 @@ ActuatorSpec makeResidual(const ActuatorSetSettings::Residuals& residuals,
   actuator.name = std::string(force ? "F" : "M") + "XYZ"[axis];
   actuator.kind = kind;
   actuator.body = residuals.body;
-  actuator.point = residuals.point.value_or(model.bodies[static_cast<std::size_t>(body)].mass_center);
+  actuator.point =
+      residuals.point.value_or(model.bodies[static_cast<std::size_t>(body)].mass_center);
   actuator.direction = Eigen::Vector3d::Unit(axis);
   actuator.direction_in_ground = true;
   actuator.optimal_force = force ? residuals.optimal_force : residuals.optimal_moment;
@@ -356,7 +364,8 @@ ActuatorSpec makeResidual(const ActuatorSetSettings::Residuals& residuals,
 
 }  // namespace
 
-std::vector<ActuatorSpec> makeActuators(const ActuatorSetSettings& settings, const ModelSpec& model) {
+std::vector<ActuatorSpec> makeActuators(const ActuatorSetSettings& settings,
+                                        const ModelSpec& model) {
   std::vector<ActuatorSpec> actuators;
   if (settings.model_actuators) {
     for (ActuatorSpec actuator : model.actuators) {
@@ -369,7 +378,8 @@ std::vector<ActuatorSpec> makeActuators(const ActuatorSetSettings& settings, con
     actuators.push_back(makeResidual(*settings.residuals, model, axis, ActuatorSpec::Kind::kPoint));
   }
   for (int axis = 0; settings.residuals && axis < 3; ++axis) {
-    actuators.push_back(makeResidual(*settings.residuals, model, axis, ActuatorSpec::Kind::kTorque));
+    actuators.push_back(
+        makeResidual(*settings.residuals, model, axis, ActuatorSpec::Kind::kTorque));
   }
   const std::map<std::string, double> optimal = expandSides(settings.coordinates, model);
   for (const JointSpec& joint : model.joints) {

@@ -109,9 +109,10 @@ struct PipelineSettings {
 ///   kSettingsUnknownField naming the nearest field; kSettingsValue, kInputMissing naming the field
 PipelineSettings readSettings(const InputFile& document);
 
-/// Actuators of a set on a model. Residuals are FX FY FZ MX MY MZ; coordinate actuators are named after
-/// their coordinate plus the suffix. @throws Error kInputCoordinates, kModelReference
-std::vector<ActuatorSpec> makeActuators(const ActuatorSetSettings& settings, const ModelSpec& model);
+/// Actuators of a set on a model. Residuals are FX FY FZ MX MY MZ; coordinate actuators are named
+/// after their coordinate plus the suffix. @throws Error kInputCoordinates, kModelReference
+std::vector<ActuatorSpec> makeActuators(const ActuatorSetSettings& settings,
+                                        const ModelSpec& model);
 
 /// Expands names that stand for both sides. @throws Error kInputCoordinates naming the nearest name
 std::map<std::string, double> expandSides(const CoordinateValues& values, const ModelSpec& model);

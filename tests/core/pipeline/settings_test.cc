@@ -1,0 +1,143 @@
+#include "core/pipeline/settings.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/io/files.h"
+#include "tests/support/model_files.h"
+#include "tests/support/tolerance.h"
+
+namespace gaitmill {
+namespace {
+
+PipelineSettings readText(const std::string& json) {
+  return readSettings({"settings.json", json});
+}
+
+struct BadSettings {
+  const char* json;
+  ErrorCode code;
+  const char* field;
+};
+
+TEST(Settings, FaultsNameTheFieldAndWhatWasExpected) {
+  for (const BadSettings& bad : std::vector<BadSettings>{
+           {"{", ErrorCode::kSettingsJson, ""},
+           {"[]", ErrorCode::kSettingsValue, ""},
+           {R"({"rra": 3})", ErrorCode::kSettingsValue, "rra"},
+           {R"({"rrra": {}})", ErrorCode::kSettingsUnknownField, "rrra"},
+           {R"({"cmc": {"windows_s": 0.01}})", ErrorCode::kSettingsUnknownField, "cmc.windows_s"},
+           {R"({"cmc": {"window_s": "10 ms"}})", ErrorCode::kSettingsValue, "cmc.window_s"},
+           {R"({"cmc": {"min_excitation": 2}})", ErrorCode::kSettingsValue, "cmc.min_excitation"},
+           {R"({"cmc": {"solver": "simplex"}})", ErrorCode::kSettingsValue, "cmc.solver"},
+           {R"({"rra": {"time_range_s": [1.8, 0.45]}})",
+            ErrorCode::kSettingsValue,
+            "rra.time_range_s"},
+           {R"({"rra": {"time_range_s": [1.8]}})", ErrorCode::kSettingsValue, "rra.time_range_s"},
+           {R"({"rra": {"passes": [{"weights": {"pelvis_tx": -1}}]}})",
+            ErrorCode::kSettingsValue,
+            "rra.passes[0].weights.pelvis_tx"},
+           {R"({"stages": {"first": "cmc", "last": "ik"}})",
+            ErrorCode::kSettingsValue,
+            "stages.last"},
+           {R"({"stages": {"first": "emg"}})", ErrorCode::kSettingsValue, "stages.first"},
+           {R"({"so": {"exponent": 0.5}})", ErrorCode::kSettingsValue, "so.exponent"},
+           {R"({"trial": {"force_threshold_n": -1}})",
+            ErrorCode::kSettingsValue,
+            "trial.force_threshold_n"}}) {
+    try {
+      readText(bad.json);
+      ADD_FAILURE() << bad.json << " was accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(codeName(error.code()), codeName(bad.code)) << bad.json;
+      EXPECT_EQ(error.where().field, bad.field) << bad.json;
+      EXPECT_EQ(error.where().file, "settings.json") << bad.json;
+    }
+  }
+}
+
+TEST(Settings, AnEmptyDocumentHasEveryDefault) {
+  const PipelineSettings settings = readText("{}");
+  EXPECT_EQ(settings.marker_set, "rajagopal2016");
+  EXPECT_EQ(settings.forces.reading.threshold, 20.0);
+  EXPECT_EQ(settings.so.exponent, 2.0);
+  EXPECT_EQ(settings.cmc.window, 0.010);
+  EXPECT_TRUE(settings.runs(Stage::kScale));
+  EXPECT_TRUE(settings.runs(Stage::kCmc));
+}
+
+TEST(Settings, StagesCanStartLateStopEarlyAndBeSkipped) {
+  const PipelineSettings settings =
+      readText(R"({"stages": {"first": "rra", "last": "so", "skip": ["id"]}})");
+  EXPECT_FALSE(settings.runs(Stage::kIk));
+  EXPECT_TRUE(settings.runs(Stage::kRra));
+  EXPECT_FALSE(settings.runs(Stage::kId));
+  EXPECT_TRUE(settings.runs(Stage::kSo));
+  EXPECT_FALSE(settings.runs(Stage::kCmc));
+}
+
+TEST(Settings, ShippedDocumentsAreValidForTheOwnModel) {
+  const ModelSpec model = readOwnModel();
+  for (const std::string name : {"default", "paper_walk", "paper_run"}) {
+    const std::string path = "models/settings/" + name + ".json";
+    const PipelineSettings settings = readSettings({path, readFile(path)});
+    EXPECT_EQ(settings.name, name);
+    EXPECT_EQ(makeActuators(settings.rra.actuators, model).size(), 29U) << name;
+    // 17 torque actuators of the model, 6 residuals, 10 reserves (spec/cmc.md 1: 113 with 80
+    // muscles)
+    EXPECT_EQ(makeActuators(settings.cmc_actuators, model).size(), 33U) << name;
+    for (const RraSettings::Pass& pass : settings.rra.passes) {
+      EXPECT_EQ(expandSides(pass.weights, model).size(), 29U) << name;
+    }
+  }
+}
+
+TEST(Settings, PaperTrialsCarryTheirPublishedFigures) {
+  const PipelineSettings walk = readSettings({"", readFile("models/settings/paper_walk.json")});
+  EXPECT_EQ(walk.rra.passes.size(), 2U);
+  EXPECT_EQ(walk.rra.passes[1].weights.at("pelvis_list"), 800);
+  EXPECT_EQ(walk.cmc.excitation_limits.size(), 2U);
+  EXPECT_EQ(walk.strength_height.value_or(0), 1.83);
+  const PipelineSettings run = readSettings({"", readFile("models/settings/paper_run.json")});
+  EXPECT_EQ(run.rra.passes.size(), 3U);
+  EXPECT_EQ(run.rra.passes[2].range->start, 0.82);
+  const ModelSpec model = readOwnModel();
+  const std::map<std::string, double> third = expandSides(run.rra.passes[2].weights, model);
+  EXPECT_EQ(third.at("hip_flexion_r"), 75);
+  EXPECT_EQ(third.at("hip_flexion_l"), 25);
+  EXPECT_EQ(third.at("hip_adduction_r"), 25);
+  EXPECT_EQ(third.at("hip_adduction_l"), 50);
+  EXPECT_EQ(run.cmc.excitation_limits.size(), 4U);
+}
+
+TEST(Settings, DefaultPresumesNoMuscleOffAndActsAtThePelvisMassCentre) {
+  const PipelineSettings settings = readSettings({"", readFile("models/settings/default.json")});
+  EXPECT_TRUE(settings.cmc.excitation_limits.empty());
+  const ModelSpec model = readOwnModel();
+  const std::vector<ActuatorSpec> actuators = makeActuators(settings.cmc_actuators, model);
+  const Eigen::Vector3d pelvis =
+      model.bodies[static_cast<std::size_t>(model.findBody("pelvis"))].mass_center;
+  int forces = 0;
+  for (const ActuatorSpec& actuator : actuators) {
+    if (actuator.kind == ActuatorSpec::Kind::kPoint) {
+      EXPECT_EQ((actuator.point - pelvis).norm(), 0.0);
+      ++forces;
+    }
+  }
+  EXPECT_EQ(forces, 3);
+}
+
+TEST(ExpandSides, AnUnknownCoordinateNamesTheNearest) {
+  try {
+    expandSides({{"hip_flexon", 1.0}}, readOwnModel());
+    FAIL() << "did not throw";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kInputCoordinates);
+    EXPECT_NE(error.message().find("hip_flexion"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace gaitmill
