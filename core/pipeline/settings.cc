@@ -108,7 +108,6 @@ void readActuators(JsonFields& parent, ActuatorSetSettings& set) {
   set.coordinates = readValues(fields, "coordinates");
   set.name_suffix = fields.text("name_suffix", set.name_suffix);
   readNumber(fields, "control_limit", 0, 1e12, set.control_limit);
-  set.model_actuators = fields.flag("model_actuators", set.model_actuators);
   fields.finish();
 }
 
@@ -367,13 +366,6 @@ ActuatorSpec makeResidual(const ActuatorSetSettings::Residuals& residuals,
 std::vector<ActuatorSpec> makeActuators(const ActuatorSetSettings& settings,
                                         const ModelSpec& model) {
   std::vector<ActuatorSpec> actuators;
-  if (settings.model_actuators) {
-    for (ActuatorSpec actuator : model.actuators) {
-      actuator.min_control = std::max(actuator.min_control, -settings.control_limit);
-      actuator.max_control = std::min(actuator.max_control, settings.control_limit);
-      actuators.push_back(actuator);
-    }
-  }
   for (int axis = 0; settings.residuals && axis < 3; ++axis) {
     actuators.push_back(makeResidual(*settings.residuals, model, axis, ActuatorSpec::Kind::kPoint));
   }

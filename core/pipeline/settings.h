@@ -24,7 +24,8 @@ namespace gaitmill {
 /// stands for both sides: "hip_flexion" for hip_flexion_r and hip_flexion_l.
 using CoordinateValues = std::map<std::string, double>;
 
-/// Ideal actuators that are added to the model's muscles. Controls count in units of optimal force.
+/// Ideal actuators beside the model's own muscles and torque actuators. Controls count in units of
+/// optimal force.
 struct ActuatorSetSettings {
   /// Residual forces and torques between ground and one body, along ground axes.
   struct Residuals {
@@ -38,8 +39,6 @@ struct ActuatorSetSettings {
   CoordinateValues coordinates;  ///< optimal force by coordinate [N.m|N]
   std::string name_suffix = "_reserve";
   double control_limit = 1000;
-  /// Whether the model document's own torque actuators take part, with this control limit.
-  bool model_actuators = false;
 };
 
 /// How force files are read.
