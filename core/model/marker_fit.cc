@@ -276,38 +276,14 @@ MarkerFitSummary MarkerFit::iterate() {
     return summary;
   }
   double damping = kFirstDamping;
-  bool trust_newton = true;
   while (summary.iterations < options_.max_iterations) {
     ++summary.iterations;
     linearize();
-    // Second derivatives where they keep the model convex, else Gauss-Newton, else more damping.
-    bool lowered = false;
-    while (!lowered && damping < kMaxDamping) {
-      const bool solved =
-          (trust_newton && calcStep(newton_, kMinDamping)) || calcStep(gauss_newton_, damping);
-      limitStep();
-      trial_ = q_ + step_;
-      const double slope = solved ? gradient_.dot(step_) : 0.0;
-      const double objective = solved ? evaluate(trial_) : kInfinity;
-      // Below this the objective cannot tell better from worse, but Newton's step still can.
-      const bool at_rounding = std::abs(slope) <= 1e-13 * summary.objective ||
-                               step_.lpNorm<Eigen::Infinity>() < options_.step_tolerance;
-      lowered = solved && (objective <= summary.objective + 1e-4 * slope || at_rounding);
-      if (lowered) {
-        summary.objective = objective;
-        damping = std::max(damping * 0.1, kMinDamping);
-      } else if (trust_newton) {
-        trust_newton = false;
-      } else {
-        damping *= 10;
-      }
-    }
-    if (!lowered) {
+    if (!descend(damping, summary.objective)) {
       evaluate(q_);
       summary.stop = FitStop::kStalled;
       return summary;
     }
-    trust_newton = true;
     q_ = trial_;
     if (step_.lpNorm<Eigen::Infinity>() < options_.step_tolerance) {
       summary.stop = FitStop::kConverged;
@@ -315,6 +291,32 @@ MarkerFitSummary MarkerFit::iterate() {
     }
   }
   return summary;
+}
+
+// Newton's step where the model is convex and the step lowers the objective, else Gauss-Newton's,
+// else with more damping.
+bool MarkerFit::descend(double& damping, double& objective) {
+  bool newton = true;
+  while (damping < kMaxDamping) {
+    const bool solved = newton ? calcStep(newton_, kMinDamping) : calcStep(gauss_newton_, damping);
+    if (solved) {
+      limitStep();
+      trial_ = q_ + step_;
+      const double slope = gradient_.dot(step_);
+      const double reached = evaluate(trial_);
+      // Below this the objective cannot tell better from worse, but Newton's step still can.
+      const bool at_rounding = std::abs(slope) <= 1e-13 * objective ||
+                               step_.lpNorm<Eigen::Infinity>() < options_.step_tolerance;
+      if (reached <= objective + 1e-4 * slope || at_rounding) {
+        objective = reached;
+        damping = std::max(damping * 0.1, kMinDamping);
+        return true;
+      }
+    }
+    damping *= newton ? 1.0 : 10.0;
+    newton = false;
+  }
+  return false;
 }
 
 double MarkerFit::evaluate(const Eigen::VectorXd& q_free) {

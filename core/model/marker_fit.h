@@ -124,6 +124,8 @@ class MarkerFit {
   void limitStep();
   void setStepBounds();
   MarkerFitSummary iterate();
+  /// Puts a step that lowers the objective into trial_; false if there is none.
+  bool descend(double& damping, double& objective);
   void storeErrors();
 
   const Model& model_;
