@@ -49,7 +49,8 @@ ColumnName parseColumnName(const std::string& label);
 
 /// The columns of `file` that are coordinates of the model, under their plain names, in SI units
 /// and radians. Degrees are converted for rotational coordinates only: coupled ones (the patella)
-/// are in radians even in files in degrees.
+/// are in radians even in files in degrees. A unit at the label ("knee_angle_r [deg]") beats the
+/// header.
 /// @param ignored  if given, labels that are no coordinates are left out and appended here; if
 /// null,
 ///                 such a label is an error

@@ -178,6 +178,7 @@ std::vector<BadFile> makeBadTables() {
       {"EMG row too long", "time,SOL\n0,1\n0.1,1,@2\n", Code::kTableColumnCount},
       {"EMG cell is a word", "time,SOL\n0,1\n0.1,@off\n", Code::kTableNumber},
       {"EMG row without time", "time,SOL\n0,1\n@,1\n", Code::kTableNumber},
+      {"time in another unit", "@time [ms],SOL\n0,1\n", Code::kTableLabels},
       {"EMG labels only", "@time,SOL\n", Code::kTableNoRows},
   };
 }

@@ -1,5 +1,6 @@
 #include "core/io/grf_reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -136,7 +137,10 @@ TEST_F(GrfReaderShared, RunningContactsAndPeak) {
                   {3.962, 4.210},
                   {4.644, 4.893}},
                  1.1e-3);
-  EXPECT_NEAR(reaction.forces[0].force.row(1).maxCoeff(), 1977, tol(30));
+  EXPECT_NEAR(std::max(reaction.forces[0].force.row(1).maxCoeff(),
+                       reaction.forces[1].force.row(1).maxCoeff()),
+              1977,
+              tol(0.5));
 }
 
 TEST_F(GrfReaderShared, UnprefixedColumnsAreTheRightFoot) {

@@ -128,5 +128,16 @@ TEST(TableWriter, UnitsTellAnglesWithoutAModel) {
   EXPECT_THROW(writeTable(table, {AngleUnit::kDegrees, nullptr, {}}), Error);
 }
 
+TEST_F(TableWriterShared, CsvInDegreesReadsBack) {
+  const std::string path = "data/models/Rajagopal2016.osim";
+  const ModelSpec model = readOsim(readFile(shared(path)), path);
+  const std::string motion = "data/walk/moco/coordinates.mot";
+  const TimeSeries q = toCoordinates(readTable(readFile(shared(motion)), motion), model);
+  const std::string text = writeCsv(q, {AngleUnit::kDegrees, &model, {}});
+  EXPECT_NE(text.find(",knee_angle_r [deg],knee_angle_r_beta [rad],"), std::string::npos);
+  const TimeSeries back = toCoordinates(readTable(text, "a.csv"), model);
+  EXPECT_LT((back.values - q.values).cwiseAbs().maxCoeff(), tol(1e-15));
+}
+
 }  // namespace
 }  // namespace gaitmill
