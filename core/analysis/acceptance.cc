@@ -19,7 +19,8 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 using Joints = std::array<double, 3>;
 
 // Published figures of one trial (spec/paper_metrics.md) and what OpenSim 4.6 reaches on the same
-// files with the published set-ups.
+// files with the published set-ups; its RRA figures are of the pass that the published script
+// reports, computed from its kinematics against the filtered inverse kinematics.
 struct Figures {
   double cmc_rms_deg;
   double cmc_rms_cm;
@@ -33,6 +34,7 @@ struct Figures {
   Joints opensim_peak_difference;
   std::array<double, 6> opensim_residuals;
   double opensim_reserve;
+  TrackingError opensim_rra;
 };
 
 // Bounds on RRA are the same for both trials.
@@ -41,48 +43,61 @@ constexpr double kRraMaxCm = 2.0;
 constexpr double kRraRmsDeg = 1.75;
 constexpr double kRraRmsCm = 1.0;
 
-constexpr Figures kWalk = {1.0,
-                           0.1,
-                           {0.4, 1.0, 0.3},
-                           {1.0, 3.0, 1.0},
-                           2.0,
-                           6.0,
-                           0.26,
-                           0.03,
-                           {0.34, 0.52, 0.26},
-                           {2.5, 1.6, 1.3},
-                           {8.2, 7.5, 6.6, 23, 12, 25},
-                           1.7};
-constexpr Figures kRun = {4.0,
-                          0.2,
-                          {3.0, 7.0, 5.0},
-                          {9.0, 26.0, 14.0},
-                          3.0,
-                          11.0,
-                          1.07,
-                          0.07,
-                          {3.0, 6.4, 2.5},
-                          {8.8, 19.5, 9.8},
-                          {6.6, 21.5, 9.1, 29, 24, 39},
-                          24};
+const Figures kWalk = {1.0,
+                       0.1,
+                       {0.4, 1.0, 0.3},
+                       {1.0, 3.0, 1.0},
+                       2.0,
+                       6.0,
+                       0.26,
+                       0.03,
+                       {0.34, 0.52, 0.26},
+                       {2.5, 1.6, 1.3},
+                       {8.2, 7.5, 6.6, 23, 12, 25},
+                       1.7,
+                       {2.71, 0.80, 1.51, 2.63, 0.38, "", ""}};
+const Figures kRun = {4.0,
+                      0.2,
+                      {3.0, 7.0, 5.0},
+                      {9.0, 26.0, 14.0},
+                      3.0,
+                      11.0,
+                      1.07,
+                      0.07,
+                      {3.0, 6.4, 2.5},
+                      {8.8, 19.5, 9.8},
+                      {6.6, 21.5, 9.1, 29, 24, 39},
+                      24,
+                      {1.97, 1.89, 1.00, 1.74, 1.00, "", ""}};
 constexpr std::array<const char*, 3> kJointNames = {"hip", "knee", "ankle"};
 
 void addTracking(const AcceptanceInput& input,
                  const Figures& figures,
                  std::vector<AcceptanceRow>& rows) {
   const auto bound = PublishedAs::kBound;
-  rows.push_back({"RRA, largest rotation", "deg", input.rra.max_deg, kRraMaxDeg, kNan, bound});
-  rows.push_back({"RRA, largest translation", "cm", input.rra.max_cm, kRraMaxCm, kNan, bound});
+  const TrackingError& opensim = figures.opensim_rra;
   rows.push_back(
-      {"RRA, largest RMS rotation", "deg", input.rra.max_rms_deg, kRraRmsDeg, kNan, bound});
+      {"RRA, largest rotation", "deg", input.rra.max_deg, kRraMaxDeg, opensim.max_deg, bound});
+  rows.push_back(
+      {"RRA, largest translation", "cm", input.rra.max_cm, kRraMaxCm, opensim.max_cm, bound});
+  rows.push_back({"RRA, largest RMS rotation",
+                  "deg",
+                  input.rra.max_rms_deg,
+                  kRraRmsDeg,
+                  opensim.max_rms_deg,
+                  bound});
   rows.push_back({"RRA, the same as the script prints it",
                   "0.01 rad",
                   input.rra.max_rms_centiradian,
                   kRraRmsDeg,
-                  kNan,
+                  opensim.max_rms_centiradian,
                   bound});
-  rows.push_back(
-      {"RRA, largest RMS translation", "cm", input.rra.max_rms_cm, kRraRmsCm, kNan, bound});
+  rows.push_back({"RRA, largest RMS translation",
+                  "cm",
+                  input.rra.max_rms_cm,
+                  kRraRmsCm,
+                  opensim.max_rms_cm,
+                  bound});
   rows.push_back({"CMC, largest RMS rotation",
                   "deg",
                   input.cmc.max_rms_deg,

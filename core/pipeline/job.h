@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/analysis/acceptance.h"
 #include "core/cmc/cmc_result.h"
 #include "core/data/ground_reaction.h"
 #include "core/data/marker_trajectories.h"
@@ -66,11 +67,25 @@ void runStage(Stage stage, Job& job);
 /// there are none.
 std::optional<GaitCycle> findGaitCycle(const Job& job);
 
+/// How far to trust a finished job; members of stages that did not run are empty.
+struct JobQuality {
+  std::optional<TrackingError> rra_tracking;  ///< of the pass that inverse dynamics analyses
+  std::optional<TrackingError> cmc_tracking;
+  std::vector<MomentComparison> moments;      ///< muscles against inverse dynamics, right leg
+  std::vector<ActuatorStatistics> residuals;  ///< of CMC
+  std::vector<ActuatorStatistics> reserves;
+};
+JobQuality calcQuality(const Job& job);
+
+/// The paper's acceptance list with ours, the paper's and OpenSim's figures side by side; empty
+/// unless the settings say that the job is one of the paper's trials and all stages ran.
+std::optional<std::string> makeAcceptanceText(const Job& job, const JobQuality& quality);
+
 /// Tables and files of a finished job, without the summary.
 void addTables(const Job& job, PipelineResult& result);
 void addFiles(const Job& job, PipelineResult& result);
 
-/// summary.json: stages with processor seconds and counts, quality, settings used, warnings.
-std::string makeSummary(const Job& job);
+/// summary.json: stages with processor seconds and counts, quality, warnings.
+std::string makeSummary(const Job& job, const JobQuality& quality);
 
 }  // namespace gaitmill

@@ -48,6 +48,15 @@ MarkerTrajectories openMarkers(const InputFile& file, Job& job) {
   return std::move(trc.markers);
 }
 
+ModelSpec openModel(const InputFile& file, Job& job) {
+  std::vector<std::string> warnings;
+  ModelSpec model = readOsim(file.bytes, file.name, &warnings);
+  for (const std::string& warning : warnings) {
+    job.warn(file.name + ": " + warning);
+  }
+  return model;
+}
+
 /// Force and moment about the ground origin through the critically damped filter. The point then is
 /// the origin and the torque the moment: filtering a centre of pressure is meaningless off the
 /// plate.
@@ -94,12 +103,12 @@ void openModels(Job& job) {
   const bool scales = job.settings.runs(Stage::kScale);
   job.generic = readOsim(readFile(own), own);
   if (job.input->model && scales) {
-    job.generic = readOsim(job.input->model->bytes, job.input->model->name);
+    job.generic = openModel(*job.input->model, job);
   }
   if (!scales) {
-    const InputFile& file =
-        needFile(job.input->model, "model", "a scaled model is needed where scaling is not run");
-    job.scaled = readOsim(file.bytes, file.name);
+    job.scaled = openModel(
+        needFile(job.input->model, "model", "a scaled model is needed where scaling is not run"),
+        job);
     job.adjusted = job.scaled;
   }
 }

@@ -57,19 +57,6 @@ Json summarizeActuators(const std::vector<ActuatorStatistics>& statistics,
   return summary;
 }
 
-/// Names of the residuals, or of everything else that is added to the muscles.
-std::vector<std::string> pickNames(const std::vector<ActuatorSpec>& specs, bool residuals) {
-  std::vector<std::string> names;
-  for (const ActuatorSpec& spec : specs) {
-    const bool residual = spec.kind != ActuatorSpec::Kind::kCoordinate;
-    const bool reserve = spec.name.find("_reserve") != std::string::npos;
-    if (residuals ? residual : reserve) {
-      names.push_back(spec.name);
-    }
-  }
-  return names;
-}
-
 Json summarizeStages(const Job& job) {
   Json stages = Json::object();
   for (int i = 0; i < kStageCount; ++i) {
@@ -143,29 +130,6 @@ Json summarizeRra(const RraResult& rra) {
   return passes;
 }
 
-std::vector<MomentComparison> compareAllMoments(const Job& job) {
-  std::vector<MomentComparison> moments;
-  if (!job.id || !job.cmc) {
-    return moments;
-  }
-  const TimeSeries& muscle = job.cmc->muscle_moment;
-  const GaitCycle cycle =
-      findGaitCycle(job).value_or(GaitCycle{muscle.time.front(), muscle.time.back()});
-  for (const ComparedMoment& moment : paperMoments()) {
-    if (muscle.findColumn(moment.coordinate)) {
-      moments.push_back(compareMoments(job.id->generalized_forces, muscle, moment, cycle));
-    }
-  }
-  return moments;
-}
-
-const RraPassResult& findReportedPass(const Job& job) {
-  const auto count = static_cast<int>(job.rra->passes.size());
-  const int pass =
-      job.settings.id_pass >= 1 && job.settings.id_pass <= count ? job.settings.id_pass : count;
-  return job.rra->passes[static_cast<std::size_t>(pass - 1)];
-}
-
 Json summarizeInfeasible(const CmcResult& cmc) {
   Json windows = Json::array();
   for (const InfeasibleWindow& window : cmc.infeasible_windows) {
@@ -178,42 +142,38 @@ Json summarizeInfeasible(const CmcResult& cmc) {
   return windows;
 }
 
-Json summarizeQuality(const Job& job) {
-  Json quality = Json::object();
+Json summarizeQuality(const Job& job, const JobQuality& quality) {
+  Json summary = Json::object();
   if (job.ik) {
-    quality["markers"] = summarizeMarkers(*job.ik);
+    summary["markers"] = summarizeMarkers(*job.ik);
   }
-  if (job.rra) {
-    quality["tracking"]["rra"] =
-        summarizeTracking(calcTrackingError(findReportedPass(job).tracking_errors));
+  if (quality.rra_tracking) {
+    summary["tracking"]["rra"] = summarizeTracking(*quality.rra_tracking);
   }
   if (job.cmc) {
     const std::vector<ActuatorSpec>& actuators = job.cmc->options.actuators;
-    quality["tracking"]["cmc"] = summarizeTracking(calcTrackingError(job.cmc->tracking_error));
-    quality["residuals"] = summarizeActuators(
-        calcActuatorStatistics(job.cmc->actuator_force, pickNames(actuators, true)), actuators);
-    quality["reserves"] = summarizeActuators(
-        calcActuatorStatistics(job.cmc->actuator_force, pickNames(actuators, false)), actuators);
-    quality["infeasible_windows"] = summarizeInfeasible(*job.cmc);
+    summary["tracking"]["cmc"] = summarizeTracking(*quality.cmc_tracking);
+    summary["residuals"] = summarizeActuators(quality.residuals, actuators);
+    summary["reserves"] = summarizeActuators(quality.reserves, actuators);
+    summary["infeasible_windows"] = summarizeInfeasible(*job.cmc);
   }
-  const std::vector<MomentComparison> moments = compareAllMoments(job);
-  for (const MomentComparison& moment : moments) {
-    quality["moments"][moment.coordinate] = summarizeMoment(moment);
+  for (const MomentComparison& moment : quality.moments) {
+    summary["moments"][moment.coordinate] = summarizeMoment(moment);
   }
-  if (!moments.empty()) {
-    quality["moments"]["fraction_of_instants_at_90_percent"] =
-        toJson(calcFractionAt90Percent(moments));
+  if (!quality.moments.empty()) {
+    summary["moments"]["fraction_of_instants_at_90_percent"] =
+        toJson(calcFractionAt90Percent(quality.moments));
   }
-  return quality;
+  return summary;
 }
 
 }  // namespace
 
-std::string makeSummary(const Job& job) {
+std::string makeSummary(const Job& job, const JobQuality& quality) {
   Json summary;
   summary["settings"] = job.settings.name;
   summary["stages"] = summarizeStages(job);
-  summary["quality"] = summarizeQuality(job);
+  summary["quality"] = summarizeQuality(job, quality);
   if (job.scale) {
     summary["scale"] = summarizeScale(*job.scale);
   }

@@ -53,7 +53,11 @@ PipelineResult Pipeline::run(const TrialInput& input,
   PipelineResult result;
   addTables(job, result);
   addFiles(job, result);
-  result.summary_json = makeSummary(job);
+  const JobQuality quality = calcQuality(job);
+  if (const std::optional<std::string> acceptance = makeAcceptanceText(job, quality)) {
+    result.files["acceptance.txt"] = *acceptance;
+  }
+  result.summary_json = makeSummary(job, quality);
   result.files["summary.json"] = result.summary_json;
   result.warnings = job.warnings;
   return result;

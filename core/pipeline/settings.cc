@@ -158,6 +158,13 @@ void readTrialFiles(JsonFields fields, PipelineSettings& settings) {
     plate.finish();
   }
   settings.gait_cycle = readRange(fields, "gait_cycle_s");
+  if (fields.has("paper_trial")) {
+    settings.paper_trial = PaperTrial::kWalk;
+    readChoice(fields,
+               "paper_trial",
+               {{"walk", PaperTrial::kWalk}, {"run", PaperTrial::kRun}},
+               *settings.paper_trial);
+  }
   fields.finish();
 }
 

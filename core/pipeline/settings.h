@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/analysis/acceptance.h"
 #include "core/cmc/cmc_options.h"
 #include "core/data/marker_set.h"
 #include "core/data/model_spec.h"
@@ -76,6 +77,9 @@ struct PipelineSettings {
   TrcOptions trc;
   ForceSettings forces;
   std::optional<TimeRange> gait_cycle;  ///< two strikes of the right foot; absent = from the forces
+
+  /// Set where the job is one of the paper's two trials: the result then holds the acceptance list.
+  std::optional<PaperTrial> paper_trial;
 
   std::string marker_set = "rajagopal2016";  ///< name of models/marker_sets/*.json
   std::optional<double> fiber_damping;

@@ -85,7 +85,8 @@ TEST(Settings, ShippedDocumentsAreValidForTheOwnModel) {
     const PipelineSettings settings = readSettings({path, readFile(path)});
     EXPECT_EQ(settings.name, name);
     EXPECT_EQ(makeActuators(settings.rra.actuators, model).size(), 29U) << name;
-    // 6 residuals and 10 reserves; with the model's 80 muscles and 17 torque actuators the 113 of spec/cmc.md 1
+    // 6 residuals and 10 reserves; with the model's 80 muscles and 17 torque actuators the 113 of
+    // spec/cmc.md 1
     EXPECT_EQ(makeActuators(settings.cmc_actuators, model).size(), 16U) << name;
     for (const RraSettings::Pass& pass : settings.rra.passes) {
       EXPECT_EQ(expandSides(pass.weights, model).size(), 29U) << name;

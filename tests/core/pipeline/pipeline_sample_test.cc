@@ -1,0 +1,201 @@
+// The whole recipe on the project's own sample trial, whose truth is known.
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+#include "core/io/files.h"
+#include "core/io/osim_reader.h"
+#include "core/io/table_reader.h"
+#include "core/pipeline/pipeline.h"
+#include "tests/support/tolerance.h"
+
+namespace gaitmill {
+namespace {
+
+InputFile openFile(const std::string& path) {
+  return {path, readFile(path)};
+}
+
+TrialInput openSampleTrial() {
+  TrialInput input;
+  input.static_markers = openFile("models/sample/static.trc");
+  input.markers = openFile("models/sample/markers.trc");
+  input.ground_reaction = openFile("models/sample/grf.mot");
+  input.mass = 70;
+  input.height = 1.76;
+  return input;
+}
+
+InputFile makeSettings(const std::string& stages) {
+  nlohmann::json settings = nlohmann::json::parse(readFile("models/settings/default.json"));
+  settings["stages"] = nlohmann::json::parse(stages);
+  return {"settings.json", settings.dump()};
+}
+
+/// One run shared by the tests that only look at it.
+const PipelineResult& runWholeSample() {
+  static const PipelineResult result =
+      Pipeline().run(openSampleTrial(), openFile("models/settings/default.json"), {});
+  return result;
+}
+
+TEST(PipelineSample, LeavesEveryPromisedFile) {
+  for (const char* name : {"scaled_model.osim",
+                           "ik.mot",
+                           "rra.mot",
+                           "adjusted_model.osim",
+                           "inverse_dynamics.sto",
+                           "so_activations.sto",
+                           "so_forces.sto",
+                           "cmc_activations.sto",
+                           "cmc_forces.sto",
+                           "cmc_kinematics.mot",
+                           "moments.csv",
+                           "summary.json"}) {
+    EXPECT_EQ(runWholeSample().files.count(name), 1U) << name;
+  }
+}
+
+TEST(PipelineSample, SummaryHasTheStatedFigures) {
+  const nlohmann::json summary = nlohmann::json::parse(runWholeSample().summary_json);
+  for (const char* stage : {"scale", "ik", "id", "rra", "cmc", "so"}) {
+    EXPECT_GT(summary["stages"][stage]["seconds"].get<double>(), 0) << stage;
+  }
+  for (const char* stage : {"ik", "so", "id"}) {
+    EXPECT_GT(summary["stages"][stage]["frames"].get<int>(), 100) << stage;
+  }
+  EXPECT_GT(summary["stages"]["cmc"]["simulated_seconds"].get<double>(), 1.6);
+  for (const char* joint : {"hip_flexion_r", "knee_angle_r", "ankle_angle_r"}) {
+    const nlohmann::json& moment = summary["quality"]["moments"][joint];
+    for (const char* figure : {"rmse_nm",
+                               "peak_difference_nm",
+                               "rmse_percent_of_peak",
+                               "peak_difference_percent_of_peak"}) {
+      EXPECT_TRUE(moment[figure].is_number()) << joint << " " << figure;
+    }
+    // The paper's bounds for walking.
+    EXPECT_LT(moment["rmse_percent_of_peak"].get<double>(), tol(2)) << joint;
+    EXPECT_LT(moment["peak_difference_percent_of_peak"].get<double>(), tol(6)) << joint;
+  }
+  for (const char* stage : {"rra", "cmc"}) {
+    const nlohmann::json& tracking = summary["quality"]["tracking"][stage];
+    EXPECT_LT(tracking["max_rms_deg"].get<double>(), tol(1)) << stage;
+    EXPECT_LT(tracking["max_deg"].get<double>(), tol(2)) << stage;
+    EXPECT_LT(tracking["max_rms_cm"].get<double>(), tol(1)) << stage;
+    EXPECT_LT(tracking["max_cm"].get<double>(), tol(2)) << stage;
+  }
+  EXPECT_GT(summary["quality"]["moments"]["fraction_of_instants_at_90_percent"].get<double>(), 0.9);
+}
+
+TEST(PipelineSample, TablesHaveUnitsAndACycle) {
+  for (const char* name : {"moments", "activations", "forces", "kinematics", "residuals"}) {
+    const TimeSeries& table = runWholeSample().tables.at(name);
+    EXPECT_EQ(table.units.size(), table.labels.size()) << name;
+    EXPECT_TRUE(table.values.allFinite()) << name;
+    const TimeSeries& cycle = runWholeSample().cycle_tables.at(name);
+    EXPECT_EQ(cycle.rowCount(), 101) << name;
+    EXPECT_EQ(cycle.time.back(), 100.0) << name;
+  }
+  const TimeSeries& activations = runWholeSample().tables.at("activations");
+  EXPECT_GE(activations.values.leftCols(80).minCoeff(), 0.01 - 1e-12);
+  EXPECT_LE(activations.values.leftCols(80).maxCoeff(), 1.0);
+}
+
+TEST(PipelineSample, FilesReadBack) {
+  const PipelineResult& result = runWholeSample();
+  const ModelSpec model = readOsim(result.files.at("scaled_model.osim"), "scaled_model.osim");
+  EXPECT_NEAR(model.calcTotalMass(), 70.0, tol(1e-9));
+  const TimeSeries ik = toCoordinates(readTable(result.files.at("ik.mot"), "ik.mot"), model);
+  EXPECT_EQ(ik.columnCount(), 39);
+  EXPECT_EQ(readTable(result.files.at("cmc_forces.sto"), "cmc_forces.sto").table.columnCount(),
+            113);
+}
+
+TEST(PipelineSample, TwiceGivesTheSameBits) {
+  const PipelineResult again =
+      Pipeline().run(openSampleTrial(), openFile("models/settings/default.json"), {});
+  for (const auto& [name, bytes] : runWholeSample().files) {
+    if (name != "summary.json") {  // holds processor seconds
+      EXPECT_EQ(again.files.at(name), bytes) << name;
+    }
+  }
+}
+
+// Each stage can be started from an earlier run's files, and then gives the same numbers.
+TEST(PipelineSample, StagesStartFromGivenInput) {
+  const PipelineResult& whole = runWholeSample();
+  TrialInput input = openSampleTrial();
+  input.model = InputFile{"scaled_model.osim", whole.files.at("scaled_model.osim")};
+  input.coordinates = InputFile{"ik.mot", whole.files.at("ik.mot")};
+  const PipelineResult from_rra =
+      Pipeline().run(input, makeSettings(R"({"first": "rra", "last": "id"})"), {});
+  EXPECT_EQ(from_rra.files.count("ik.mot"), 0U);
+  const TimeSeries expected = readTable(whole.files.at("inverse_dynamics.sto"), "a.sto").table;
+  const TimeSeries found = readTable(from_rra.files.at("inverse_dynamics.sto"), "b.sto").table;
+  EXPECT_LT((expected.values - found.values).cwiseAbs().maxCoeff(),
+            tol(1e-6));  // degrees and back: 1e-15 rad
+
+  input.model = InputFile{"adjusted_model.osim", whole.files.at("adjusted_model.osim")};
+  input.coordinates = InputFile{"rra.mot", whole.files.at("rra.mot")};
+  const PipelineResult so =
+      Pipeline().run(input, makeSettings(R"({"first": "so", "last": "so"})"), {});
+  const TimeSeries a = readTable(whole.files.at("so_activations.sto"), "a.sto").table;
+  const TimeSeries b = readTable(so.files.at("so_activations.sto"), "b.sto").table;
+  EXPECT_LT((a.values - b.values).cwiseAbs().maxCoeff(), tol(1e-6));
+}
+
+TEST(PipelineSample, AMissingFileIsNamedWithItsReason) {
+  TrialInput input = openSampleTrial();
+  input.ground_reaction.reset();
+  try {
+    Pipeline().run(input, openFile("models/settings/default.json"), {});
+    FAIL() << "did not throw";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kInputMissing);
+    EXPECT_EQ(error.where().field, "grf");
+  }
+}
+
+TEST(PipelineSample, CancellingStopsWithinAStage) {
+  int calls = 0;
+  PipelineEvents events;
+  events.progress = [&](Stage stage, double) {
+    return stage != Stage::kCmc || ++calls < 3;
+  };
+  try {
+    Pipeline().run(openSampleTrial(), openFile("models/settings/default.json"), events);
+    FAIL() << "did not throw";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kCancelled);
+    ASSERT_FALSE(error.context().empty());
+    EXPECT_EQ(error.context().back(), "stage cmc");
+  }
+}
+
+TEST(PipelineSample, AMarkerSetIsAWordNotAPath) {
+  nlohmann::json settings = nlohmann::json::parse(readFile("models/settings/default.json"));
+  settings["scale"]["marker_set"] = "../settings/default";
+  EXPECT_THROW(Pipeline().run(openSampleTrial(), {"settings.json", settings.dump()}, {}), Error);
+}
+
+// Forces that are filtered keep their impulse: the low-pass has unit gain at rest.
+TEST(PipelineSample, ForceFilterChangesMomentsOnlyLittle) {
+  nlohmann::json settings = nlohmann::json::parse(readFile("models/settings/default.json"));
+  settings["stages"] = {{"last", "id"}, {"skip", {"rra"}}};
+  const TimeSeries plain =
+      Pipeline().run(openSampleTrial(), {"a.json", settings.dump()}, {}).tables.at("moments");
+  settings["trial"]["force_lowpass_cutoff_hz"] = 20;
+  const TimeSeries filtered =
+      Pipeline().run(openSampleTrial(), {"b.json", settings.dump()}, {}).tables.at("moments");
+  const int hip = plain.getColumn("hip_flexion_r_moment");
+  const double difference =
+      (plain.values.col(hip) - filtered.values.col(hip)).cwiseAbs().maxCoeff();
+  EXPECT_GT(difference, 0.01);
+  EXPECT_LT(difference, 0.25 * plain.values.col(hip).cwiseAbs().maxCoeff());
+}
+
+}  // namespace
+}  // namespace gaitmill
