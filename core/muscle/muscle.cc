@@ -17,8 +17,10 @@ namespace {
 constexpr double kNegligible = 2.0097183471152322e-14;
 // Below this damping a muscle counts as undamped, which this product does not offer.
 constexpr double kMinDamping = 0.001;
-// Root finding stops at a step of this size relative to the normalised velocity or length.
+// Root finding stops at a step of this size relative to the normalised velocity or length; or at a
+// Newton step of the other, which leaves an error of its square.
 constexpr double kRoundOff = 4e-16;
+constexpr double kLastNewtonStep = 3e-9;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMaxSteps = 200;
 
@@ -77,16 +79,19 @@ double solveIncreasing(const Function& residual, double x, double scale) {
     const bool slow = size > 0.5 * last_size;
     last_size = size;
     double next = x - at.value / at.slope;
+    bool newton = false;
     if (!(next > low && next < high) || !(at.slope > 0)) {
       const bool bracketed = low > -kInfinity && high < kInfinity;
       next = bracketed ? 0.5 * (low + high) : (at.value > 0 ? x - scale : x + scale);
       scale *= 2;
     } else if (slow && low > -kInfinity && high < kInfinity) {
       next = 0.5 * (low + high);
+    } else {
+      newton = true;
     }
     const double change = std::abs(next - x);
     x = next;
-    if (change <= kRoundOff * (1 + std::abs(x))) {
+    if (change <= (newton ? kLastNewtonStep : kRoundOff) * (1 + std::abs(x))) {
       break;
     }
   }

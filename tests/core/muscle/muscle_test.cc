@@ -36,8 +36,10 @@ MuscleSpec makeSpec(const LegMuscle& m) {
   return spec;
 }
 
+// All with the curves of Rajagopal2016, made once.
 Muscle makeMuscle(const MuscleSpec& spec) {
-  return Muscle(spec, std::make_shared<const MuscleCurves>(spec.curves));
+  static const auto curves = std::make_shared<const MuscleCurves>(MuscleCurvesSpec{});
+  return Muscle(spec, curves);
 }
 
 const LegMuscle& findLegMuscle(const std::string& name) {

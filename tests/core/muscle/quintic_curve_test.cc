@@ -17,8 +17,8 @@ QuinticCurve makeCorner() {
 
 TEST(QuinticCurve, PassesItsJointsWithTheirSlopes) {
   const QuinticCurve curve = makeCorner();
-  EXPECT_DOUBLE_EQ(curve.calc(0).value, 0);
-  EXPECT_DOUBLE_EQ(curve.calc(0).slope, 0);
+  EXPECT_NEAR(curve.calc(0).value, 0, tol(2e-14));
+  EXPECT_NEAR(curve.calc(0).slope, 0, tol(2e-12));
   EXPECT_DOUBLE_EQ(curve.calc(1).value, 1);
   EXPECT_DOUBLE_EQ(curve.calc(1).slope, 3);
 }
@@ -28,6 +28,17 @@ TEST(QuinticCurve, ContinuesStraightBeyondItsEnds) {
   EXPECT_DOUBLE_EQ(curve.calc(-2).value, 0);
   EXPECT_DOUBLE_EQ(curve.calc(1.5).value, 2.5);
   EXPECT_DOUBLE_EQ(curve.calc(1.5).slope, 3);
+}
+
+TEST(QuinticCurve, CellsAgreeWithTheSolvedCurve) {
+  for (const double tightness : {0.1, 0.5, 0.9}) {
+    const QuinticCurve curve({{0, 0, 0}, {1, 1, 3}}, {tightness});
+    for (double x = 0; x < 1; x += 0.00137) {
+      const CurvePoint solved = curve.calcBySolving(x);
+      EXPECT_NEAR(curve.calc(x).value, solved.value, tol(3e-14)) << x;
+      EXPECT_NEAR(curve.calc(x).slope, solved.slope, tol(2e-11)) << x;
+    }
+  }
 }
 
 TEST(QuinticCurve, SlopeIsTheDerivativeOfTheValue) {
