@@ -12,6 +12,7 @@
 #include <Simbody.h>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/math/scalar_function.h"
 
 namespace gaitmill {
@@ -78,9 +79,13 @@ SimTK::Body::Rigid makeRigidBody(const BodySpec& body) {
     const SimTK::Vec3 center = toSimTK(body.mass_center);
     return SimTK::Body::Rigid(
         SimTK::MassProperties(body.mass, center, central.shiftFromMassCenter(center, body.mass)));
-  } catch (const SimTK::Exception::Base& error) {
+  } catch (const SimTK::Exception::Base&) {
     throw Error(ErrorCode::kModelValue,
-                "the inertia of body '" + body.name + "' cannot be that of a body: " + error.what(),
+                "no body can have the inertia of '" + body.name + "': of its moments " +
+                    formatFixed(I[0], 6) + ", " + formatFixed(I[1], 6) + " and " +
+                    formatFixed(I[2], 6) +
+                    " kg m^2 two must not sum to less than the third (the toes of Rajagopal2015 "
+                    "have 0.0002 where Rajagopal2016 corrects it to 0.0011)",
                 where);
   }
 }

@@ -1,13 +1,18 @@
 #include "core/model/muscle_paths.h"
 
 #include <cmath>
+#include <fstream>
 #include <random>
+#include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/model/model.h"
 #include "tests/support/model_files.h"
+#include "tests/support/shared_data.h"
 #include "tests/support/tolerance.h"
 
 namespace gaitmill {
@@ -96,45 +101,138 @@ TEST_F(MusclePathsTest, LeftAndRightAreMirrorImages) {
   }
 }
 
-struct ExactLength {
-  const char* muscle;
-  double pose_0, pose_a;
+/// Pose A of spec/path.md 9 and its speeds; the other coordinates are at their defaults.
+struct PoseA {
+  Eigen::VectorXd q, u;
+
+  explicit PoseA(const Model& model)
+      : q(model.defaultPose()), u(Eigen::VectorXd::Zero(model.coordinateCount())) {
+    const auto set = [&](const char* name, double value, double speed) {
+      q[model.getCoordinate(name).value()] = value;
+      u[model.getCoordinate(name).value()] = speed;
+    };
+    set("hip_flexion_r", 0.5, 1);
+    set("hip_adduction_r", -0.1, -0.5);
+    set("hip_rotation_r", 0.1, 0.3);
+    set("knee_angle_r", 0.8, -2);
+    set("knee_angle_r_beta", 0.8, -2);
+    set("ankle_angle_r", 0.1, 1.5);
+    set("subtalar_angle_r", 0.05, 0);
+    set("mtp_angle_r", 0.1, 0);
+  }
 };
 
-// Exact lengths of spec/path.md 9: every muscle with a wrap, and two without.
-TEST_F(MusclePathsTest, LengthsMatchTheExactValues) {
-  const std::vector<ExactLength> table = {
-      {"addbrev", 0.14019355574, 0.13166112453},    {"addlong", 0.24395195895, 0.22771330319},
-      {"addmagDist", 0.22282143956, 0.24480315565}, {"addmagIsch", 0.33926462069, 0.36724691531},
-      {"addmagMid", 0.14349591510, 0.15380326582},  {"addmagProx", 0.11630876979, 0.11367525736},
-      {"bfsh", 0.23793663342, 0.21609730662},       {"gaslat", 0.45014128276, 0.43555337947},
-      {"gasmed", 0.46293795133, 0.45041860920},     {"glmax1", 0.19145414010, 0.21270624969},
-      {"glmax2", 0.21840899577, 0.24673349973},     {"glmax3", 0.21889231569, 0.26129628032},
-      {"grac", 0.43855863100, 0.41777947741},       {"iliacus", 0.20770324993, 0.18895057837},
-      {"psoas", 0.22882630013, 0.21683244953},      {"recfem", 0.51205732064, 0.52691783269},
-      {"semimem", 0.41151874825, 0.40612075663},    {"semiten", 0.45403140336, 0.44797660776},
-      {"vasint", 0.28211692009, 0.31597244785},     {"vaslat", 0.29572321717, 0.32986985356},
-      {"vasmed", 0.27020944677, 0.30322873211},     {"soleus", 0.32283650320, 0.32669487350},
-      {"edl", 0.43730829135, 0.43494374574}};
-  Eigen::VectorXd q = model_.defaultPose();
-  const Eigen::VectorXd pose_0 = calcLengths(q);
-  const auto set = [&](const char* name, double value) {
-    q[model_.getCoordinate(name).value()] = value;
-  };
-  set("hip_flexion_r", 0.5);
-  set("hip_adduction_r", -0.1);
-  set("hip_rotation_r", 0.1);
-  set("knee_angle_r", 0.8);
-  set("knee_angle_r_beta", 0.8);
-  set("ankle_angle_r", 0.1);
-  set("subtalar_angle_r", 0.05);
-  set("mtp_angle_r", 0.1);
-  const Eigen::VectorXd pose_a = calcLengths(q);
-  for (const ExactLength& row : table) {
-    const int m = model_.spec().findMuscle(std::string(row.muscle) + "_r");
-    EXPECT_NEAR(pose_0[m], row.pose_0, tol(1e-9)) << row.muscle;
-    EXPECT_NEAR(pose_a[m], row.pose_a, tol(1e-9)) << row.muscle;
+/// The exact values of spec/path.md 9, read from its tables: those whose header row starts as
+/// given, in order. Each row is a muscle and its numbers.
+class ExactPathTest : public SharedDataTest {
+ protected:
+  using Row = std::pair<std::string, std::vector<double>>;
+
+  std::vector<std::vector<Row>> readTables(const std::string& header) const {
+    std::ifstream file(shared("spec/path.md"));
+    std::vector<std::vector<Row>> tables;
+    bool inside = false;
+    for (std::string line; std::getline(file, line);) {
+      if (line.rfind(header, 0) == 0) {
+        tables.emplace_back();
+        inside = true;
+      } else if (line.empty() || line[0] != '|') {
+        inside = false;
+      } else if (inside && line.rfind("|---", 0) != 0) {
+        tables.back().push_back(parseRow(line));
+      }
+    }
+    return tables;
   }
+
+  Model model_{readOwnModel()};
+  ModelState state_{model_};
+  MusclePaths paths_{model_};
+
+  int findMuscle(const Row& row) const { return model_.spec().findMuscle(row.first + "_r"); }
+  Eigen::VectorXd calcLengthsAtKnee(const Eigen::VectorXd& pose, double knee) {
+    Eigen::VectorXd q = pose;
+    q[model_.getCoordinate("knee_angle_r").value()] = knee;
+    q[model_.getCoordinate("knee_angle_r_beta").value()] = knee;
+    state_.setPose(q);
+    paths_.calc(state_);
+    return paths_.lengths();
+  }
+  void checkArms(const Eigen::VectorXd& pose, const std::vector<Row>& rows) {
+    ASSERT_EQ(rows.size(), 40U);
+    const double knee = pose[model_.getCoordinate("knee_angle_r").value()];
+    // The tables' knee arms are four-point differences of the length with a step of 1e-4 rad, which
+    // straddles the end of the knee's splines at 0 (up to 7e-7 m there). So they are compared with
+    // the same differences of our lengths; arms against derivatives have a test of their own.
+    constexpr double h = 1e-4;
+    const Eigen::VectorXd knee_arms =
+        -(8 * (calcLengthsAtKnee(pose, knee + h) - calcLengthsAtKnee(pose, knee - h)) -
+          (calcLengthsAtKnee(pose, knee + 2 * h) - calcLengthsAtKnee(pose, knee - 2 * h))) /
+        (12 * h);
+    calcLengthsAtKnee(pose, knee);
+    const std::vector<std::string> names = {"hip_flexion_r",
+                                            "hip_adduction_r",
+                                            "hip_rotation_r",
+                                            "knee_angle_r",
+                                            "ankle_angle_r",
+                                            "subtalar_angle_r"};
+    for (const Row& row : rows) {
+      // Of the two-wrap gastrocnemii the tables stopped iterating the length at 1e-12 m, which
+      // leaves their tangent points, and so these arms, good to some 1e-9 m only.
+      const double bound = row.first == "gaslat" || row.first == "gasmed" ? 1e-8 : 1e-9;
+      for (std::size_t k = 0; k < names.size(); ++k) {
+        const double arm =
+            names[k] == "knee_angle_r"
+                ? knee_arms[findMuscle(row)]
+                : paths_.momentArms()(findMuscle(row), model_.getCoordinate(names[k]).value());
+        EXPECT_NEAR(arm, row.second.at(k), tol(bound)) << row.first << " " << names[k];
+      }
+    }
+  }
+
+ private:
+  static Row parseRow(const std::string& line) {
+    std::stringstream cells(line.substr(1));
+    std::string cell;
+    std::getline(cells, cell, '|');
+    Row row;
+    std::stringstream(cell) >> row.first;
+    while (std::getline(cells, cell, '|')) {
+      double value = 0;
+      if (std::stringstream(cell) >> value) {
+        row.second.push_back(value);
+      }
+    }
+    return row;
+  }
+};
+
+TEST_F(ExactPathTest, LengthsAndSpeedsOfTheRightLeg) {
+  const auto tables = readTables("| muscle | L pose 0 exact");
+  ASSERT_EQ(tables.size(), 1U);
+  ASSERT_EQ(tables[0].size(), 40U);
+  state_.setPose(model_.defaultPose());
+  paths_.calc(state_);
+  const Eigen::VectorXd pose_0 = paths_.lengths();
+  const PoseA pose_a(model_);
+  state_.setPose(pose_a.q);
+  paths_.calc(state_);
+  Eigen::VectorXd speeds(model_.muscleCount());
+  paths_.calcSpeeds(pose_a.u, speeds);
+  for (const Row& row : tables[0]) {
+    const int m = findMuscle(row);
+    EXPECT_NEAR(pose_0[m], row.second.at(0), tol(1e-9)) << row.first;
+    EXPECT_NEAR(paths_.lengths()[m], row.second.at(2), tol(1e-9)) << row.first;
+    EXPECT_NEAR(speeds[m], row.second.at(4), tol(1e-9)) << row.first;
+  }
+}
+
+TEST_F(ExactPathTest, MomentArmsOfTheRightLeg) {
+  // Exact pose A, OpenSim's pose A (only the muscles that differ), exact pose 0.
+  const auto tables = readTables("| muscle | hip flex | hip add");
+  ASSERT_EQ(tables.size(), 3U);
+  checkArms(PoseA(model_).q, tables[0]);
+  checkArms(model_.defaultPose(), tables[2]);
 }
 
 TEST_F(MusclePathsTest, AnswerDoesNotDependOnThePoseBefore) {
