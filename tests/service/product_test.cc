@@ -1,0 +1,232 @@
+// The program itself, as its users run it: the sample trial through the real pipeline, over a real
+// socket and from the command line. Some ten seconds of computing per job.
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "service/command_line.h"
+#include "tests/http/api_contract.h"
+#include "tests/http/http_client.h"
+#include "tests/service/child_process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace gaitmill {
+namespace {
+
+using nlohmann::json;
+
+const std::string kSample = "models/sample/";
+
+std::string readBytes(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << file.rdbuf();
+  return bytes.str();
+}
+
+// gaitmill serve on its own database; may be killed and started again.
+class ProductService {
+ public:
+  explicit ProductService(const TemporaryFolder& folder, const std::string& workers = "1")
+      : process_({GAITMILL,
+                  "serve",
+                  "--port",
+                  "0",
+                  "--db",
+                  folder / "mill.db",
+                  "--workers",
+                  workers,
+                  "--models",
+                  "models",
+                  "--log-level",
+                  "error"}) {
+    const std::string address = process_.readLine();
+    client_ = HttpClient(std::stoi(address.substr(address.rfind(':') + 1)));
+  }
+  ChildProcess& process() { return process_; }
+  const HttpClient& client() const { return client_; }
+
+  std::string uploadSample() const {
+    const ClientReply reply =
+        client_.upload("/v1/trials",
+                       {{"trial", "", readBytes(kSample + "trial.json")},
+                        {"static", "static.trc", readBytes(kSample + "static.trc")},
+                        {"markers", "markers.trc", readBytes(kSample + "markers.trc")},
+                        {"grf", "grf.mot", readBytes(kSample + "grf.mot")},
+                        {"emg", "emg.sto", readBytes(kSample + "emg.sto")}});
+    EXPECT_EQ(reply.status, 201) << reply.body;
+    return reply.json()["id"];
+  }
+  std::string submit(const std::string& trial) const {
+    const ClientReply reply = client_.post("/v1/jobs", json{{"trial", trial}}.dump());
+    EXPECT_EQ(reply.status, 202) << reply.body;
+    return reply.json()["id"];
+  }
+
+ private:
+  ChildProcess process_;
+  HttpClient client_{0};
+};
+
+// What the contract says about every result of a finished job.
+void checkResults(const HttpClient& client, const std::string& id) {
+  const ApiContract contract;
+  for (const char* name :
+       {"moments", "activations", "forces", "kinematics", "residuals", "quality"}) {
+    for (const char* query :
+         {"?format=json", "?format=csv", "?format=sto", "?axis=cycle", "?axis=cycle&angles=deg"}) {
+      const std::string path = "/v1/jobs/" + id + "/results/" + name + query;
+      const ClientReply reply = client.get(path);
+      EXPECT_EQ(reply.status, 200) << path << reply.body;
+      for (const auto& fault : contract.findFaults("GET", "/v1/jobs/{id}/results/{name}", reply)) {
+        ADD_FAILURE() << path << ": " << fault;
+      }
+    }
+  }
+}
+
+// Results of a job that the issue asks for by name, of the same trial without a server.
+std::vector<std::string> listRunFiles() {
+  return {"scaled_model.osim",
+          "ik.mot",
+          "rra.mot",
+          "adjusted_model.osim",
+          "inverse_dynamics.sto",
+          "so_activations.sto",
+          "so_forces.sto",
+          "cmc_activations.sto",
+          "cmc_forces.sto",
+          "cmc_kinematics.mot",
+          "moments.csv",
+          "summary.json"};
+}
+
+std::vector<std::string> makeRunCommand(const std::string& out) {
+  return {GAITMILL,
+          "run",
+          "--static",
+          kSample + "static.trc",
+          "--markers",
+          kSample + "markers.trc",
+          "--grf",
+          kSample + "grf.mot",
+          "--emg",
+          kSample + "emg.sto",
+          "--mass",
+          "70",
+          "--height",
+          "1.76",
+          "--models",
+          "models",
+          "--out",
+          out};
+}
+
+TEST(Product, KillInMidJobThenTheJobCompletesAsTheCommandLineDoes) {
+  const TemporaryFolder folder;
+  std::string id;
+  {
+    ProductService service(folder);
+    id = service.submit(service.uploadSample());
+    json job;
+    do {
+      job = service.client().waitForState(id, {"running"});
+    } while (job["stages"].size() < 3);
+    service.process().signal(SIGKILL);
+    EXPECT_EQ(service.process().wait(), 128 + SIGKILL);
+  }
+  ProductService service(folder);
+  const json job = service.client().waitForState(id, {"succeeded", "failed"});
+  ASSERT_EQ(job["state"], "succeeded") << job;
+  EXPECT_EQ(job["attempt"], 2);
+  EXPECT_EQ(job["stages"].size(), 6U);
+  checkResults(service.client(), id);
+
+  ChildProcess run(makeRunCommand(folder / "out"));
+  while (!run.readLine().empty()) {
+  }
+  ASSERT_EQ(run.wait(), kExitSuccess);
+  for (const std::string& name : listRunFiles()) {
+    const std::string bytes = readBytes(folder / ("out/" + name));
+    EXPECT_NE(bytes, "") << name;
+    const ClientReply file = service.client().get("/v1/jobs/" + id + "/files/" + name);
+    EXPECT_EQ(file.status, 200) << name;
+    EXPECT_TRUE(name == "summary.json" || file.body == bytes) << name << " differs";
+  }
+}
+
+// Nothing is shared between jobs: two at a time give what one alone gives, bit for bit.
+TEST(Product, JobsSideBySideGiveTheSameBits) {
+  const TemporaryFolder folder;
+  ProductService service(folder, "2");
+  const std::string trial = service.uploadSample();
+  const std::vector<std::string> ids = {service.submit(trial), service.submit(trial)};
+  std::vector<std::string> activations;
+  for (const std::string& id : ids) {
+    EXPECT_EQ(service.client().waitForState(id, {"succeeded", "failed"})["state"], "succeeded");
+    activations.push_back(service.client().get("/v1/jobs/" + id + "/results/activations").body);
+  }
+  EXPECT_EQ(activations[0], activations[1]);
+}
+
+TEST(Product, TerminatedInMidJobEndsInTimeAndKeepsTheJob) {
+  const TemporaryFolder folder;
+  std::string id;
+  {
+    ProductService service(folder);
+    id = service.submit(service.uploadSample());
+    service.client().waitForState(id, {"running"});
+    service.process().signal(SIGTERM);
+    EXPECT_EQ(service.process().wait(), kExitSuccess);
+  }
+  ProductService service(folder);
+  service.client().waitForState(id, {"running"});
+  EXPECT_EQ(service.client().post("/v1/jobs/" + id + "/cancel", "").status, 202);
+  service.client().waitForState(id, {"cancelled"});
+}
+
+TEST(Product, SettingsAreRefusedWhenTheyAreSubmitted) {
+  const TemporaryFolder folder;
+  ProductService service(folder);
+  const json request{{"trial", service.uploadSample()}, {"settings", {{"scael", 1}}}};
+  const ClientReply reply = service.client().post("/v1/jobs", request.dump());
+  EXPECT_EQ(reply.status, 422) << reply.body;
+  EXPECT_EQ(reply.json()["error"]["code"], "settings.unknown_field");
+}
+
+struct CommandCase {
+  std::vector<std::string> arguments;
+  int exit_code;
+};
+class ProductExitCode : public ::testing::TestWithParam<CommandCase> {};
+TEST_P(ProductExitCode, IsAsDocumented) {
+  std::vector<std::string> command = {GAITMILL};
+  command.insert(command.end(), GetParam().arguments.begin(), GetParam().arguments.end());
+  ChildProcess process(command);
+  EXPECT_EQ(process.wait(), GetParam().exit_code) << ::testing::PrintToString(command);
+}
+INSTANTIATE_TEST_SUITE_P(
+    Table,
+    ProductExitCode,
+    ::testing::Values(
+        CommandCase{{"version"}, kExitSuccess},
+        CommandCase{{"--help"}, kExitSuccess},
+        CommandCase{{"model", "--help"}, kExitSuccess},
+        CommandCase{{"model", "CMakeLists.txt"}, kExitFailed},
+        CommandCase{{"run", "--mass", "70", "--height", "1.7", "--settings", "none", "--out", "x"},
+                    kExitFailed},
+        CommandCase{{}, kExitUsage},
+        CommandCase{{"run", "--out", "x"}, kExitUsage},
+        CommandCase{{"serve", "--port", "x"}, kExitUsage},
+        CommandCase{{"serve", "--port", "0", "--db", "/proc/absent/a.db"}, kExitInternal}));
+
+}  // namespace
+}  // namespace gaitmill
