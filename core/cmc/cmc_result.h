@@ -19,6 +19,11 @@ struct InfeasibleWindow {
   std::vector<Missing> missing;  ///< coordinates short by more than 1e-3, in model order
 };
 
+enum class CmcStop {
+  kFinished,
+  kDiverged,  ///< coordinates ran away: the tables end before the end time
+};
+
 /// Work done, for benchmarks and reports.
 struct CmcCounters {
   int windows = 0;
@@ -49,6 +54,7 @@ struct CmcResult {
   TimeSeries muscle_moment;   ///< sum over muscles of moment arm times tendon force [N.m|N]
   TimeSeries tracking_error;  ///< q_ref - q at t_start and at every window's start [rad|m]
 
+  CmcStop stop = CmcStop::kFinished;
   std::vector<InfeasibleWindow> infeasible_windows;
   CmcCounters counters;
   CmcOptions options;  ///< as used

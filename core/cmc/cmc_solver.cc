@@ -18,6 +18,8 @@ namespace {
 
 // Sums of 10 ms steps miss the end time by round-off [s].
 constexpr double kTimeRoundOff = 1e-9;
+// Nothing that moves like a body has speeds beyond this [rad/s|m/s].
+constexpr double kRunawaySpeed = 1e3;
 
 // The model's own torque actuators, then residuals and reserves.
 std::vector<ActuatorSpec> listActuators(const Model& model, const CmcOptions& options) {
@@ -59,8 +61,9 @@ class CmcRun {
   CmcResult solve(const Progress& progress) {
     initializeMuscles();
     solveInitialStage();
-    simulate(progress);
+    const CmcStop stop = simulate(progress);
     CmcResult result = recorder_.take();
+    result.stop = stop;
     result.counters = counters_;
     result.counters.predictions = controller_.predictor().predictions();
     result.counters.fiber_steps = controller_.predictor().fiberSteps();
@@ -126,7 +129,9 @@ class CmcRun {
     counters_.qp_iterations += controller_.window().qp.iterations;
   }
 
-  void simulate(const Progress& progress) {
+  bool isRunaway() const { return !(state_.u.cwiseAbs().maxCoeff() < kRunawaySpeed); }
+
+  CmcStop simulate(const Progress& progress) {
     const int windows = countWindows();
     for (int w = 0; w < windows; ++w) {
       reportProgress(progress, static_cast<double>(w) / windows);
@@ -140,10 +145,14 @@ class CmcRun {
         recorder_.addInfeasible(controller_.window());
       }
       integrateWindow(start);
+      if (isRunaway()) {
+        return CmcStop::kDiverged;
+      }
     }
     integrator_.evaluate(state_);
     recorder_.addRow(state_, controls_.excitation, integrator_, body_);
     reportProgress(progress, 1);
+    return CmcStop::kFinished;
   }
 
   // Rows stand at the beginning of steps, where everything is evaluated anyway; the first of them

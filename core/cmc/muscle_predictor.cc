@@ -25,8 +25,9 @@ struct StepControl {
 
 // Order 4 with an embedded order 3: the error scales with step^4.
 StepControl controlStep(double step, double relative_error) {
-  const bool accepted = relative_error <= 1 || step <= kShortestStep;
-  const double factor = kSafety * std::pow(std::max(relative_error, 1e-6), -0.25);
+  // Written so that an error that is not a number is accepted too: the loop must end.
+  const bool accepted = !(relative_error > 1) || step <= kShortestStep;
+  const double factor = kSafety * std::pow(std::max(1e-6, relative_error), -0.25);
   return {std::min(kLongestStep, step * std::clamp(factor, 0.1, accepted ? 5.0 : 0.9)), accepted};
 }
 

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "tests/support/model_files.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/tolerance.h"
 
@@ -274,37 +275,53 @@ TEST(Muscle, MakeMusclesKeepsOrderAndKinds) {
   EXPECT_FALSE(muscles[1].hasRigidTendon());
 }
 
-class MuscleReference : public SharedDataTest {};
-
-// reference/model_rajagopal2016/fibers.csv: 20 poses x 80 muscles x 4 cases. Path length is not in
-// the table but follows from fiber and tendon; the tendon's own speed too, so only elastic muscles
-// and static cases of rigid ones are complete.
-TEST_F(MuscleReference, FibersMatchTheReferenceModel) {
-  const CsvTable table = readCsv(shared("reference/model_rajagopal2016/fibers.csv"));
-  const int name = table.column("muscle");
-  const int kind = table.column("case");
-  const auto at = [&](std::size_t row, const char* column) {
-    return table.number(static_cast<int>(row), table.column(column));
-  };
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    const auto& cells = table.rows[row];
-    const Muscle muscle = makeMuscle(cells[static_cast<std::size_t>(name)]);
-    const double path =
-        at(row, "tendon_length_m") + at(row, "fiber_length_m") * at(row, "cos_pennation");
-    const double a = at(row, "activation");
-    const double rate = muscle.activationDynamics().calcRate(a, 0.5);
-    ASSERT_NEAR(rate, at(row, "activation_rate_at_excitation_0.5"), tol(1e-8));
-    if (cells[static_cast<std::size_t>(kind)] == "static_equilibrium") {
-      const double force = muscle.hasRigidTendon()
-                               ? muscle.calcRigid(a, path, 0).tendon_force
-                               : muscle.calcTendonForce(muscle.solveStaticLength(a, path), path);
-      ASSERT_NEAR(force, at(row, "tendon_force_N"), tol(1e-5) * muscle.maxIsometricForce())
-          << cells[1];
-    } else if (!muscle.hasRigidTendon()) {
-      const FiberState s = muscle.calcElastic(a, at(row, "fiber_length_m"), path);
-      ASSERT_NEAR(s.norm_velocity, at(row, "norm_fiber_velocity"), tol(1e-6)) << cells[1];
+// fibers.csv of the reference models: poses x 80 muscles x static and dynamic cases. The path's
+// length follows from fiber and tendon, its speed, for rigid tendons, from the fiber's.
+class MuscleReference : public SharedDataTest {
+ protected:
+  void expectFibers(const ModelSpec& model, const std::string& file) {
+    const std::vector<Muscle> muscles = makeMuscles(model.muscles);
+    const CsvTable table = readCsv(shared(file));
+    const auto name = static_cast<std::size_t>(table.column("muscle"));
+    const auto kind = static_cast<std::size_t>(table.column("case"));
+    ASSERT_GT(table.rows.size(), 3000u);
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+      const auto at = [&](const char* column) {
+        return table.number(static_cast<int>(row), table.column(column));
+      };
+      const std::string& muscle_name = table.rows[row][name];
+      SCOPED_TRACE(muscle_name + " row " + std::to_string(row + 2));
+      const Muscle& muscle = muscles[static_cast<std::size_t>(model.findMuscle(muscle_name))];
+      const double a = at("activation");
+      ASSERT_NEAR(muscle.activationDynamics().calcRate(a, 0.5),
+                  at("activation_rate_at_excitation_0.5"),
+                  tol(1e-8));
+      const double length = at("fiber_length_m");
+      const double path = at("tendon_length_m") + length * at("cos_pennation");
+      const double force = tol(1e-5) * muscle.maxIsometricForce();
+      if (muscle.hasRigidTendon()) {
+        const double speed = at("fiber_velocity_m_s") / at("cos_pennation");
+        ASSERT_NEAR(muscle.calcRigid(a, path, speed).tendon_force, at("tendon_force_N"), force);
+      } else if (table.rows[row][kind] == "static_equilibrium") {
+        const double rest = muscle.solveStaticLength(a, path);
+        ASSERT_NEAR(muscle.calcTendonForce(rest, path), at("tendon_force_N"), force);
+      } else {
+        const FiberState state = muscle.calcElastic(a, length, path);
+        ASSERT_NEAR(state.norm_velocity, at("norm_fiber_velocity"), tol(1e-6));
+        ASSERT_NEAR(state.tendon_force, at("tendon_force_N"), force);
+      }
     }
   }
+};
+
+TEST_F(MuscleReference, FibersOfTheGenericModelMatch) {
+  expectFibers(readModelFile(shared("data/models/Rajagopal2016.osim")),
+               "reference/model_rajagopal2016/fibers.csv");
+}
+
+TEST_F(MuscleReference, FibersOfTheScaledWalkerMatch) {
+  expectFibers(readModelFile(shared("reference/walk/subject_adjusted.osim")),
+               "reference/model_walk_adjusted/fibers.csv");
 }
 
 }  // namespace
