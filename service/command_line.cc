@@ -90,7 +90,7 @@ void addSample(CLI::App& app, SampleOptionsOnDisk& options) {
   command->add_flag_callback(
       "--truth",
       [&options] { options.content = SampleOptionsOnDisk::Content::kWithTruth; },
-      "Generate it anew and write the true model, coordinates and moments beside it");
+      "Also write the true model, coordinates and moments");
   addModels(*command, options.models);
   command->footer(kFooter);
 }

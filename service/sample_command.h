@@ -6,8 +6,8 @@
 
 namespace gaitmill {
 
-/// Writes the sample trial into a folder and prints the names: the recorded files as they ship, or
-/// generated anew together with the truth they come from.
+/// Generates the sample trial, bit for bit what ships in models/sample, writes it into a folder and
+/// prints the names; on request also the truth it comes from.
 /// @throws Error of the files
 void writeSample(const SampleOptionsOnDisk& options, std::ostream& out);
 

@@ -9,6 +9,7 @@
 #include <Eigen/LU>
 
 #include "core/base/error.h"
+#include "core/base/units.h"
 #include "core/model/model.h"
 
 namespace gaitmill {
@@ -42,6 +43,13 @@ struct Step {
 // Quintic step: 0 to 1 with vanishing first and second derivatives at both ends.
 double calcShare(double progress) {
   return progress * progress * progress * (10.0 + progress * (-15.0 + 6.0 * progress));
+}
+
+// Centre of pressure between heel (0) and toe (1) over the stance (0 to 1): ahead of an even roll
+// by a fifth of the foot in the middle, much as the published trial's.
+double calcRollOver(double stance) {
+  constexpr double kLead = 0.2;
+  return stance + kLead * std::sin(kPi * stance);
 }
 
 Eigen::Vector3d projectToFloor(const Eigen::Vector3d& p_G) {
@@ -175,8 +183,8 @@ struct FootLoadDistribution::Impl {
     const Foot& lead = step.right_leads ? right : left;
     const Foot& trail = step.right_leads ? left : right;
     const auto rollOver = [&](const Foot& foot, double since_strike) {
-      const double progress = std::min(1.0, since_strike / stance);
-      return findGroundPoint(foot, foot.heel + progress * (foot.toe - foot.heel));
+      const double rolled = calcRollOver(std::min(1.0, since_strike / stance));
+      return findGroundPoint(foot, foot.heel + rolled * (foot.toe - foot.heel));
     };
     return share * rollOver(lead, t - step.strike) +
            (1.0 - share) * rollOver(trail, t - step.strike + half);

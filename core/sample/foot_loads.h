@@ -39,9 +39,9 @@ struct FootLoads {
 /// continuously differentiable in time. One per thread: calc works on memory of its own.
 class FootLoadDistribution {
  public:
-  /// Share of the cycle that each double support lasts: stance 66 % of the cycle, as the published
-  /// trial above 20 N.
-  static constexpr double kDoubleSupport = 0.16;
+  /// Share of the cycle that each double support lasts: stance 70 % of the cycle, as the published
+  /// trial above 5 N.
+  static constexpr double kDoubleSupport = 0.20;
 
   /// Keeps a reference to the motion and its model. @throws Error kModelReference if the model
   /// lacks the feet ("calcn_r") or their markers ("RCAL", "RTOE") that say how long they are
@@ -53,8 +53,8 @@ class FootLoadDistribution {
   NetReaction calcNet(double t);
   FootLoads calc(double t);
 
-  /// Where the net reaction should act [m]: centres of pressure that roll evenly from heel to toe
-  /// while each foot is on the ground, weighted by the feet's shares.
+  /// Where the net reaction should act [m]: centres of pressure that roll from heel to toe as in
+  /// the published trial while each foot is on the ground, weighted by the feet's shares.
   Eigen::Vector3d calcTarget(double t);
 
  private:

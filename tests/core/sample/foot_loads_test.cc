@@ -59,8 +59,8 @@ TEST_F(FootLoadsTest, BalancePutsTheNetReactionUnderTheFeet) {
   GaitMotion motion(subject, GaitPattern{});
   const BalanceReport report = balanceGait(motion);
   EXPECT_GT(report.rms_before, 0.1);  // [m] the symmetrized fit alone would fall over sideways
-  EXPECT_LT(report.rms_after, 0.02);
-  EXPECT_LT(report.largest_after, 0.045);
+  EXPECT_LT(report.rms_after, 0.015);
+  EXPECT_LT(report.largest_after, 0.03);
   EXPECT_LT(report.largest_shift, 0.015);
   EXPECT_LT(report.largest_rotation, 0.02);
 }

@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+#include "core/base/units.h"
+#include "core/io/files.h"
+#include "core/io/osim_reader.h"
+#include "core/pipeline/pipeline.h"
+#include "core/pipeline/sample_files.h"
+#include "tests/support/tolerance.h"
+
+namespace gaitmill {
+namespace {
+
+using Json = nlohmann::json;
+
+InputFile readInput(const std::string& path) {
+  return {path.substr(path.rfind('/') + 1), readFile(path)};
+}
+
+TrialInput readSample() {
+  TrialInput input;
+  input.static_markers = readInput("models/sample/static.trc");
+  input.markers = readInput("models/sample/markers.trc");
+  input.ground_reaction = readInput("models/sample/grf.mot");
+  input.emg = readInput("models/sample/emg.sto");
+  input.mass = 70;
+  input.height = 1.76;
+  return input;
+}
+
+// The embedded trial through all stages with the default settings, once for all tests.
+class SamplePipeline : public ::testing::Test {
+ protected:
+  struct Run {
+    PipelineResult result;
+    std::map<Stage, std::vector<double>> progress;
+  };
+
+  static const Run& run() {
+    static const Run finished = [] {
+      Run fresh;
+      PipelineEvents events;
+      events.progress = [&fresh](Stage stage, double fraction) {
+        fresh.progress[stage].push_back(fraction);
+        return true;
+      };
+      fresh.result =
+          Pipeline().run(readSample(), readInput("models/settings/default.json"), events);
+      return fresh;
+    }();
+    return finished;
+  }
+
+  static Json summary() { return Json::parse(run().result.summary_json); }
+};
+
+TEST_F(SamplePipeline, LeavesEveryPromisedFile) {
+  for (const char* name : {"scaled_model.osim",
+                           "ik.mot",
+                           "rra.mot",
+                           "adjusted_model.osim",
+                           "inverse_dynamics.sto",
+                           "so_activations.sto",
+                           "so_forces.sto",
+                           "cmc_activations.sto",
+                           "cmc_forces.sto",
+                           "cmc_kinematics.mot",
+                           "moments.csv",
+                           "summary.json"}) {
+    EXPECT_EQ(run().result.files.count(name), 1U) << name;
+  }
+  for (const char* name : {"moments", "activations", "forces", "kinematics", "residuals"}) {
+    EXPECT_EQ(run().result.tables.count(name), 1U) << name;
+    EXPECT_EQ(run().result.cycle_tables.count(name), 1U) << name;
+  }
+}
+
+TEST_F(SamplePipeline, SummaryCountsAndTimesEveryStage) {
+  const Json stages = summary().at("stages");
+  for (const char* stage : {"scale", "ik", "id", "rra", "cmc", "so"}) {
+    EXPECT_GT(stages.at(stage).at("seconds").get<double>(), 0.0) << stage;
+  }
+  EXPECT_EQ(stages.at("ik").at("frames"), 175);
+  EXPECT_GT(stages.at("cmc").at("simulated_seconds").get<double>(), 1.1445);
+}
+
+TEST_F(SamplePipeline, ProgressRunsFromStartToEndOfEachStage) {
+  EXPECT_EQ(run().progress.size(), 6U);
+  for (const auto& [stage, fractions] : run().progress) {
+    EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end())) << stageName(stage);
+    EXPECT_EQ(fractions.back(), 1.0) << stageName(stage);
+  }
+}
+
+TEST_F(SamplePipeline, FindsThePersonInTheStandingTrial) {
+  const std::string bytes = run().result.files.at("scaled_model.osim");
+  const ModelSpec scaled = readOsim(bytes, "scaled_model.osim");
+  const ModelSpec truth = makeSampleSubject(
+      readOsim(readFile("models/rajagopal2016/rajagopal2016.osim"), "rajagopal2016.osim"));
+  EXPECT_NEAR(scaled.calcTotalMass(), truth.calcTotalMass(), tol(1e-9));
+  // Lengths of segments: markers 0.2 to 0.4 m apart, noise 1 mm averaged over 51 frames, 0.5 mm at
+  // most.
+  const auto lengthOf = [](const ModelSpec& model, const char* muscle) {
+    return model.muscles[static_cast<std::size_t>(model.findMuscle(muscle))].optimal_fiber_length;
+  };
+  for (const char* muscle : {"recfem_r", "soleus_r", "vasint_l"}) {
+    EXPECT_NEAR(lengthOf(scaled, muscle) / lengthOf(truth, muscle), 1.0, tol(0.002)) << muscle;
+  }
+}
+
+// The paper's bounds for walking (spec/paper_metrics.md A to C).
+TEST_F(SamplePipeline, MeetsThePapersBoundsForWalking) {
+  const Json quality = summary().at("quality");
+  const Json rra = quality.at("tracking").at("rra");
+  EXPECT_LT(rra.at("max_deg").get<double>(), 2.0);
+  EXPECT_LT(rra.at("max_cm").get<double>(), 2.0);
+  const Json cmc = quality.at("tracking").at("cmc");
+  EXPECT_LT(cmc.at("max_rms_deg").get<double>(), 1.0);
+  EXPECT_LT(cmc.at("max_rms_cm").get<double>(), 0.1);
+  for (const char* moment : {"hip_flexion_r", "knee_angle_r", "ankle_angle_r"}) {
+    const Json& figures = quality.at("moments").at(moment);
+    EXPECT_LT(figures.at("rmse_percent_of_peak").get<double>(), 2.0) << moment;
+    EXPECT_LT(figures.at("peak_difference_percent_of_peak").get<double>(), 6.0) << moment;
+  }
+  EXPECT_TRUE(quality.at("infeasible_windows").empty());
+}
+
+// The trial is dynamically consistent, so that what is left at the pelvis comes from marker noise:
+// below 1 % of body weight and 5 N.m.
+TEST_F(SamplePipeline, LeavesLittleAtThePelvis) {
+  const Json residuals = summary().at("quality").at("residuals");
+  for (const char* force : {"FX", "FY", "FZ"}) {
+    EXPECT_LT(residuals.at(force).at("peak_n").get<double>(), 0.01 * 70 * kGravity) << force;
+  }
+  for (const char* moment : {"MX", "MY", "MZ"}) {
+    EXPECT_LT(residuals.at(moment).at("peak_nm").get<double>(), 5.0) << moment;
+  }
+}
+
+TEST_F(SamplePipeline, ActivationsLieBetweenZeroAndOneAndNamesAreTheModels) {
+  const TimeSeries& activations = run().result.tables.at("activations");
+  EXPECT_GE(activations.columnCount(), 80);
+  EXPECT_GE(activations.values.minCoeff(), 0.0);
+  EXPECT_LE(activations.values.maxCoeff(), 1.0);
+  // Soleus works before toe-off and rests in swing.
+  const TimeSeries& cycle = run().result.cycle_tables.at("activations");
+  const int soleus = cycle.getColumn("soleus_r");
+  EXPECT_GT(cycle.values(55, soleus), 10.0 * cycle.values(85, soleus));
+}
+
+TEST_F(SamplePipeline, StopsWhereItIsAskedTo) {
+  PipelineEvents events;
+  events.progress = [](Stage stage, double) {
+    return stage != Stage::kRra;
+  };
+  try {
+    Pipeline().run(readSample(), readInput("models/settings/default.json"), events);
+    FAIL() << "ran to its end";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kCancelled);
+  }
+}
+
+}  // namespace
+}  // namespace gaitmill
