@@ -68,8 +68,8 @@ class Model {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Kinematics and dynamics of a Model at one pose and speed. One per thread. Sizes its memory in
-/// the constructor; the other members do not allocate. Speeds are the coordinates' time
+/// Kinematics and dynamics of a Model at one pose and speed. One per thread. Sizes its own memory in
+/// the constructor; what is allocated later, Simbody allocates. Speeds are the coordinates' time
 /// derivatives. Constraints (couplers, locks) play no role here: see FreeCoordinates.
 class ModelState {
  public:
