@@ -105,6 +105,8 @@ std::string encodeTable(ResultPort& results, const HttpRequest& request, ResultF
   TimeSeries table =
       results.findTable(request.captures.at("id"), request.captures.at("name"), axis);
   if (format == ResultFormat::kSto) {
+    // Storage files call their first column time, whatever it holds.
+    table.name += axis == TableAxis::kCycle ? ", column time in percent of the gait cycle" : "";
     return results.encodeSto(table, angles);
   }
   if (angles == AngleUnit::kDegrees) {
@@ -140,13 +142,10 @@ HttpReply findFile(ResultPort& results, const HttpRequest& request) {
   return answer;
 }
 
-}  // namespace
+using Request = HttpRequest;
+using Routes = std::vector<Route>;
 
-std::vector<Route> makeRoutes(Ports ports, const std::string& version) {
-  TrialPort& trials = ports.trials;
-  JobPort& jobs = ports.jobs;
-  ResultPort& results = ports.results;
-  using Request = HttpRequest;
+Routes makeServiceRoutes(const std::string& version) {
   return {
       {"GET",
        "/healthz",
@@ -160,6 +159,11 @@ std::vector<Route> makeRoutes(Ports ports, const std::string& version) {
        [version](Request&) {
          return reply(200, R"({"name":"gaitmill","version":")" + version + "\"}");
        }},
+  };
+}
+
+Routes makeTrialRoutes(TrialPort& trials) {
+  return {
       {"POST",
        "/v1/trials",
        BodyKind::kMultipart,
@@ -172,6 +176,11 @@ std::vector<Route> makeRoutes(Ports ports, const std::string& version) {
        [&trials](Request& request) {
          return reply(200, renderTrial(trials.find(request.captures.at("id"))));
        }},
+  };
+}
+
+Routes makeJobRoutes(JobPort& jobs) {
+  return {
       {"POST",
        "/v1/jobs",
        BodyKind::kJson,
@@ -190,6 +199,11 @@ std::vector<Route> makeRoutes(Ports ports, const std::string& version) {
        [&jobs](Request& request) {
          return reply(202, renderJob(jobs.cancel(request.captures.at("id"))));
        }},
+  };
+}
+
+Routes makeResultRoutes(ResultPort& results) {
+  return {
       {"GET",
        "/v1/jobs/{id}/results/{name}",
        BodyKind::kNone,
@@ -209,6 +223,18 @@ std::vector<Route> makeRoutes(Ports ports, const std::string& version) {
          return findFile(results, request);
        }},
   };
+}
+
+}  // namespace
+
+std::vector<Route> makeRoutes(Ports ports, const std::string& version) {
+  Routes all = makeServiceRoutes(version);
+  for (const Routes& group : {makeTrialRoutes(ports.trials),
+                              makeJobRoutes(ports.jobs),
+                              makeResultRoutes(ports.results)}) {
+    all.insert(all.end(), group.begin(), group.end());
+  }
+  return all;
 }
 
 }  // namespace gaitmill::api

@@ -98,38 +98,16 @@ class Server::Transport : public httplib::Server {
  public:
   Transport(std::vector<Route> routes, ServerOptions options, ServerLog log)
       : router_(std::move(routes)), options_(std::move(options)), log_(std::move(log)) {
-    using httplib::Request;
-    using httplib::Response;
-    new_task_queue = [this] {
-      return new httplib::ThreadPool(options_.threads);
-    };
-    set_tcp_nodelay(true);
-    set_payload_max_length(options_.max_upload_bytes);
-    // Without SO_REUSEPORT, which the library sets and which lets a second service share the port.
-    set_socket_options([](socket_t socket) {
-      const int yes = 1;
-      ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    });
-    set_pre_routing_handler([this](const Request& request, Response& response) {
-      return refuse(request, response) ? HandlerResponse::Handled : HandlerResponse::Unhandled;
-    });
-    set_expect_100_continue_handler([this](const Request& request, Response& response) {
-      return refuse(request, response) ? response.status : 100;
-    });
-    Get(".*", [this](const Request& request, Response& response) {
+    setLimits();
+    setGates();
+    Get(".*", [this](const httplib::Request& request, httplib::Response& response) {
       dispatch(request, response, nullptr);
     });
-    Post(".*", [this](const Request& request, Response& response, const auto& reader) {
-      dispatch(request, response, &reader);
-    });
-    set_error_handler(HandlerWithResponse([](const Request&, Response& response) {
-      if (!response.body.empty()) {
-        return HandlerResponse::Unhandled;
-      }
-      send(replyBareStatus(response.status), response);
-      return HandlerResponse::Handled;
-    }));
-    set_logger([this](const Request& request, const Response& response) {
+    Post(".*",
+         [this](const httplib::Request& request,
+                httplib::Response& response,
+                const httplib::ContentReader& reader) { dispatch(request, response, &reader); });
+    set_logger([this](const httplib::Request& request, const httplib::Response& response) {
       log_(LogLevel::kDebug,
            request.method + " " + request.path + " " + std::to_string(response.status));
     });
@@ -165,6 +143,37 @@ class Server::Transport : public httplib::Server {
   }
 
  private:
+  void setLimits() {
+    new_task_queue = [this] {
+      return new httplib::ThreadPool(options_.threads);
+    };
+    set_tcp_nodelay(true);
+    set_payload_max_length(options_.max_upload_bytes);
+    // Without SO_REUSEPORT, which the library sets and which lets a second service share the port.
+    set_socket_options([](socket_t socket) {
+      const int yes = 1;
+      ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
+  }
+
+  // What is asked before a body is read, and what is made of the library's own refusals.
+  void setGates() {
+    set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
+      return refuse(request, response) ? HandlerResponse::Handled : HandlerResponse::Unhandled;
+    });
+    set_expect_100_continue_handler(
+        [this](const httplib::Request& request, httplib::Response& response) {
+          return refuse(request, response) ? response.status : 100;
+        });
+    set_error_handler(HandlerWithResponse([](const httplib::Request&, httplib::Response& response) {
+      if (!response.body.empty()) {
+        return HandlerResponse::Unhandled;
+      }
+      send(replyBareStatus(response.status), response);
+      return HandlerResponse::Handled;
+    }));
+  }
+
   bool process_and_close_socket(socket_t socket) override {
     ConnectionStream stream(socket, options_);
     for (std::size_t count = 1; count <= kMaxRequests; ++count) {

@@ -120,6 +120,8 @@ TEST_F(RoutesTest, AxisAndAnglesAreAsked) {
   EXPECT_NEAR(degrees["columns"][0]["values"][0].get<double>(), 28.64788975654116, 1e-13);
   EXPECT_EQ(degrees["columns"][1]["values"], json({0.25, 1.0}));
   EXPECT_EQ(get(path, {{"format", "sto"}, {"angles", "deg"}}).body, "kinematics deg");
+  EXPECT_EQ(get(path, {{"format", "sto"}, {"axis", "cycle"}}).body,
+            "kinematics, column time in percent of the gait cycle rad");
 }
 
 TEST_F(RoutesTest, QualityComesInAllFormats) {
