@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -7,7 +6,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/io/files.h"
 #include "core/io/osim_reader.h"
@@ -36,7 +34,7 @@ TrialInput readSample() {
 }
 
 // The embedded trial through all stages with the default settings, once for all tests.
-class SamplePipeline : public ::testing::Test {
+class SampleOutcome : public ::testing::Test {
  protected:
   struct Run {
     PipelineResult result;
@@ -61,37 +59,7 @@ class SamplePipeline : public ::testing::Test {
   static Json summary() { return Json::parse(run().result.summary_json); }
 };
 
-TEST_F(SamplePipeline, LeavesEveryPromisedFile) {
-  for (const char* name : {"scaled_model.osim",
-                           "ik.mot",
-                           "rra.mot",
-                           "adjusted_model.osim",
-                           "inverse_dynamics.sto",
-                           "so_activations.sto",
-                           "so_forces.sto",
-                           "cmc_activations.sto",
-                           "cmc_forces.sto",
-                           "cmc_kinematics.mot",
-                           "moments.csv",
-                           "summary.json"}) {
-    EXPECT_EQ(run().result.files.count(name), 1U) << name;
-  }
-  for (const char* name : {"moments", "activations", "forces", "kinematics", "residuals"}) {
-    EXPECT_EQ(run().result.tables.count(name), 1U) << name;
-    EXPECT_EQ(run().result.cycle_tables.count(name), 1U) << name;
-  }
-}
-
-TEST_F(SamplePipeline, SummaryCountsAndTimesEveryStage) {
-  const Json stages = summary().at("stages");
-  for (const char* stage : {"scale", "ik", "id", "rra", "cmc", "so"}) {
-    EXPECT_GT(stages.at(stage).at("seconds").get<double>(), 0.0) << stage;
-  }
-  EXPECT_EQ(stages.at("ik").at("frames"), 175);
-  EXPECT_GT(stages.at("cmc").at("simulated_seconds").get<double>(), 1.1445);
-}
-
-TEST_F(SamplePipeline, ProgressRunsFromStartToEndOfEachStage) {
+TEST_F(SampleOutcome, ProgressRunsFromStartToEndOfEachStage) {
   EXPECT_EQ(run().progress.size(), 6U);
   for (const auto& [stage, fractions] : run().progress) {
     EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end())) << stageName(stage);
@@ -99,7 +67,7 @@ TEST_F(SamplePipeline, ProgressRunsFromStartToEndOfEachStage) {
   }
 }
 
-TEST_F(SamplePipeline, FindsThePersonInTheStandingTrial) {
+TEST_F(SampleOutcome, FindsThePersonInTheStandingTrial) {
   const std::string bytes = run().result.files.at("scaled_model.osim");
   const ModelSpec scaled = readOsim(bytes, "scaled_model.osim");
   const ModelSpec truth = makeSampleSubject(
@@ -115,26 +83,9 @@ TEST_F(SamplePipeline, FindsThePersonInTheStandingTrial) {
   }
 }
 
-// The paper's bounds for walking (spec/paper_metrics.md A to C).
-TEST_F(SamplePipeline, MeetsThePapersBoundsForWalking) {
-  const Json quality = summary().at("quality");
-  const Json rra = quality.at("tracking").at("rra");
-  EXPECT_LT(rra.at("max_deg").get<double>(), 2.0);
-  EXPECT_LT(rra.at("max_cm").get<double>(), 2.0);
-  const Json cmc = quality.at("tracking").at("cmc");
-  EXPECT_LT(cmc.at("max_rms_deg").get<double>(), 1.0);
-  EXPECT_LT(cmc.at("max_rms_cm").get<double>(), 0.1);
-  for (const char* moment : {"hip_flexion_r", "knee_angle_r", "ankle_angle_r"}) {
-    const Json& figures = quality.at("moments").at(moment);
-    EXPECT_LT(figures.at("rmse_percent_of_peak").get<double>(), 2.0) << moment;
-    EXPECT_LT(figures.at("peak_difference_percent_of_peak").get<double>(), 6.0) << moment;
-  }
-  EXPECT_TRUE(quality.at("infeasible_windows").empty());
-}
-
 // The trial is dynamically consistent, so that what is left at the pelvis comes from marker noise:
 // below 1 % of body weight and 5 N.m.
-TEST_F(SamplePipeline, LeavesLittleAtThePelvis) {
+TEST_F(SampleOutcome, LeavesLittleAtThePelvis) {
   const Json residuals = summary().at("quality").at("residuals");
   for (const char* force : {"FX", "FY", "FZ"}) {
     EXPECT_LT(residuals.at(force).at("peak_n").get<double>(), 0.01 * 70 * kGravity) << force;
@@ -144,7 +95,7 @@ TEST_F(SamplePipeline, LeavesLittleAtThePelvis) {
   }
 }
 
-TEST_F(SamplePipeline, ActivationsLieBetweenZeroAndOneAndNamesAreTheModels) {
+TEST_F(SampleOutcome, ActivationsLieBetweenZeroAndOneAndNamesAreTheModels) {
   const TimeSeries& activations = run().result.tables.at("activations");
   EXPECT_GE(activations.columnCount(), 80);
   EXPECT_GE(activations.values.minCoeff(), 0.0);
@@ -153,19 +104,6 @@ TEST_F(SamplePipeline, ActivationsLieBetweenZeroAndOneAndNamesAreTheModels) {
   const TimeSeries& cycle = run().result.cycle_tables.at("activations");
   const int soleus = cycle.getColumn("soleus_r");
   EXPECT_GT(cycle.values(55, soleus), 10.0 * cycle.values(85, soleus));
-}
-
-TEST_F(SamplePipeline, StopsWhereItIsAskedTo) {
-  PipelineEvents events;
-  events.progress = [](Stage stage, double) {
-    return stage != Stage::kRra;
-  };
-  try {
-    Pipeline().run(readSample(), readInput("models/settings/default.json"), events);
-    FAIL() << "ran to its end";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::kCancelled);
-  }
 }
 
 }  // namespace
