@@ -13,6 +13,7 @@ constexpr double kMissingForce = 1e-3;
 
 std::vector<std::string> makeUnits(const Model& model, const std::vector<CoordinateIndex>& list) {
   std::vector<std::string> units;
+  units.reserve(list.size());
   for (const CoordinateIndex c : list) {
     units.emplace_back(model.motionKind(c) == MotionKind::kTranslational ? "m" : "rad");
   }
@@ -21,6 +22,7 @@ std::vector<std::string> makeUnits(const Model& model, const std::vector<Coordin
 
 std::vector<CoordinateIndex> listCoordinates(const Model& model) {
   std::vector<CoordinateIndex> all;
+  all.reserve(static_cast<std::size_t>(model.coordinateCount()));
   for (int c = 0; c < model.coordinateCount(); ++c) {
     all.emplace_back(c);
   }
