@@ -11,27 +11,13 @@
 #include "core/io/osim_reader.h"
 #include "core/pipeline/pipeline.h"
 #include "core/pipeline/sample_files.h"
+#include "tests/support/sample_input.h"
 #include "tests/support/tolerance.h"
 
 namespace gaitmill {
 namespace {
 
 using Json = nlohmann::json;
-
-InputFile readInput(const std::string& path) {
-  return {path.substr(path.rfind('/') + 1), readFile(path)};
-}
-
-TrialInput readSample() {
-  TrialInput input;
-  input.static_markers = readInput("models/sample/static.trc");
-  input.markers = readInput("models/sample/markers.trc");
-  input.ground_reaction = readInput("models/sample/grf.mot");
-  input.emg = readInput("models/sample/emg.sto");
-  input.mass = 70;
-  input.height = 1.76;
-  return input;
-}
 
 // The embedded trial through all stages with the default settings, once for all tests.
 class SampleOutcome : public ::testing::Test {
@@ -50,7 +36,7 @@ class SampleOutcome : public ::testing::Test {
         return true;
       };
       fresh.result =
-          Pipeline().run(readSample(), readInput("models/settings/default.json"), events);
+          Pipeline().run(readSampleInput(), readInput("models/settings/default.json"), events);
       return fresh;
     }();
     return finished;

@@ -1,4 +1,5 @@
-// The whole recipe on the project's own sample trial, whose truth is known.
+// How the recipe behaves, on the embedded sample trial: same bits twice, any first stage, bad
+// input.
 #include <cmath>
 #include <string>
 
@@ -9,25 +10,11 @@
 #include "core/io/files.h"
 #include "core/io/osim_reader.h"
 #include "core/io/table_reader.h"
-#include "core/pipeline/pipeline.h"
+#include "tests/support/sample_input.h"
 #include "tests/support/tolerance.h"
 
 namespace gaitmill {
 namespace {
-
-InputFile openFile(const std::string& path) {
-  return {path, readFile(path)};
-}
-
-TrialInput openSampleTrial() {
-  TrialInput input;
-  input.static_markers = openFile("models/sample/static.trc");
-  input.markers = openFile("models/sample/markers.trc");
-  input.ground_reaction = openFile("models/sample/grf.mot");
-  input.mass = 70;
-  input.height = 1.76;
-  return input;
-}
 
 InputFile makeSettings(const std::string& stages) {
   nlohmann::json settings = nlohmann::json::parse(readFile("models/settings/default.json"));
@@ -38,11 +25,11 @@ InputFile makeSettings(const std::string& stages) {
 /// One run shared by the tests that only look at it.
 const PipelineResult& runWholeSample() {
   static const PipelineResult result =
-      Pipeline().run(openSampleTrial(), openFile("models/settings/default.json"), {});
+      Pipeline().run(readSampleInput(), readInput("models/settings/default.json"), {});
   return result;
 }
 
-TEST(PipelineSample, LeavesEveryPromisedFile) {
+TEST(PipelineTest, LeavesEveryPromisedFile) {
   for (const char* name : {"scaled_model.osim",
                            "ik.mot",
                            "rra.mot",
@@ -59,7 +46,7 @@ TEST(PipelineSample, LeavesEveryPromisedFile) {
   }
 }
 
-TEST(PipelineSample, SummaryHasTheStatedFigures) {
+TEST(PipelineTest, SummaryHasTheStatedFigures) {
   const nlohmann::json summary = nlohmann::json::parse(runWholeSample().summary_json);
   for (const char* stage : {"scale", "ik", "id", "rra", "cmc", "so"}) {
     EXPECT_GT(summary["stages"][stage]["seconds"].get<double>(), 0) << stage;
@@ -90,7 +77,7 @@ TEST(PipelineSample, SummaryHasTheStatedFigures) {
   EXPECT_GT(summary["quality"]["moments"]["fraction_of_instants_at_90_percent"].get<double>(), 0.9);
 }
 
-TEST(PipelineSample, TablesHaveUnitsAndACycle) {
+TEST(PipelineTest, TablesHaveUnitsAndACycle) {
   for (const char* name : {"moments", "activations", "forces", "kinematics", "residuals"}) {
     const TimeSeries& table = runWholeSample().tables.at(name);
     EXPECT_EQ(table.units.size(), table.labels.size()) << name;
@@ -99,12 +86,9 @@ TEST(PipelineSample, TablesHaveUnitsAndACycle) {
     EXPECT_EQ(cycle.rowCount(), 101) << name;
     EXPECT_EQ(cycle.time.back(), 100.0) << name;
   }
-  const TimeSeries& activations = runWholeSample().tables.at("activations");
-  EXPECT_GE(activations.values.leftCols(80).minCoeff(), 0.01 - 1e-12);
-  EXPECT_LE(activations.values.leftCols(80).maxCoeff(), 1.0);
 }
 
-TEST(PipelineSample, FilesReadBack) {
+TEST(PipelineTest, FilesReadBack) {
   const PipelineResult& result = runWholeSample();
   const ModelSpec model = readOsim(result.files.at("scaled_model.osim"), "scaled_model.osim");
   EXPECT_NEAR(model.calcTotalMass(), 70.0, tol(1e-9));
@@ -114,9 +98,9 @@ TEST(PipelineSample, FilesReadBack) {
             113);
 }
 
-TEST(PipelineSample, TwiceGivesTheSameBits) {
+TEST(PipelineTest, TwiceGivesTheSameBits) {
   const PipelineResult again =
-      Pipeline().run(openSampleTrial(), openFile("models/settings/default.json"), {});
+      Pipeline().run(readSampleInput(), readInput("models/settings/default.json"), {});
   for (const auto& [name, bytes] : runWholeSample().files) {
     if (name != "summary.json") {  // holds processor seconds
       EXPECT_EQ(again.files.at(name), bytes) << name;
@@ -125,9 +109,9 @@ TEST(PipelineSample, TwiceGivesTheSameBits) {
 }
 
 // Each stage can be started from an earlier run's files, and then gives the same numbers.
-TEST(PipelineSample, StagesStartFromGivenInput) {
+TEST(PipelineTest, StagesStartFromGivenInput) {
   const PipelineResult& whole = runWholeSample();
-  TrialInput input = openSampleTrial();
+  TrialInput input = readSampleInput();
   input.model = InputFile{"scaled_model.osim", whole.files.at("scaled_model.osim")};
   input.coordinates = InputFile{"ik.mot", whole.files.at("ik.mot")};
   const PipelineResult from_rra =
@@ -147,11 +131,11 @@ TEST(PipelineSample, StagesStartFromGivenInput) {
   EXPECT_LT((a.values - b.values).cwiseAbs().maxCoeff(), tol(1e-6));
 }
 
-TEST(PipelineSample, AMissingFileIsNamedWithItsReason) {
-  TrialInput input = openSampleTrial();
+TEST(PipelineTest, AMissingFileIsNamedWithItsReason) {
+  TrialInput input = readSampleInput();
   input.ground_reaction.reset();
   try {
-    Pipeline().run(input, openFile("models/settings/default.json"), {});
+    Pipeline().run(input, readInput("models/settings/default.json"), {});
     FAIL() << "did not throw";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::kInputMissing);
@@ -159,14 +143,14 @@ TEST(PipelineSample, AMissingFileIsNamedWithItsReason) {
   }
 }
 
-TEST(PipelineSample, CancellingStopsWithinAStage) {
+TEST(PipelineTest, CancellingStopsWithinAStage) {
   int calls = 0;
   PipelineEvents events;
   events.progress = [&](Stage stage, double) {
     return stage != Stage::kCmc || ++calls < 3;
   };
   try {
-    Pipeline().run(openSampleTrial(), openFile("models/settings/default.json"), events);
+    Pipeline().run(readSampleInput(), readInput("models/settings/default.json"), events);
     FAIL() << "did not throw";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::kCancelled);
@@ -175,21 +159,21 @@ TEST(PipelineSample, CancellingStopsWithinAStage) {
   }
 }
 
-TEST(PipelineSample, AMarkerSetIsAWordNotAPath) {
+TEST(PipelineTest, AMarkerSetIsAWordNotAPath) {
   nlohmann::json settings = nlohmann::json::parse(readFile("models/settings/default.json"));
   settings["scale"]["marker_set"] = "../settings/default";
-  EXPECT_THROW(Pipeline().run(openSampleTrial(), {"settings.json", settings.dump()}, {}), Error);
+  EXPECT_THROW(Pipeline().run(readSampleInput(), {"settings.json", settings.dump()}, {}), Error);
 }
 
 // Forces that are filtered keep their impulse: the low-pass has unit gain at rest.
-TEST(PipelineSample, ForceFilterChangesMomentsOnlyLittle) {
+TEST(PipelineTest, ForceFilterChangesMomentsOnlyLittle) {
   nlohmann::json settings = nlohmann::json::parse(readFile("models/settings/default.json"));
   settings["stages"] = {{"last", "id"}, {"skip", {"rra"}}};
   const TimeSeries plain =
-      Pipeline().run(openSampleTrial(), {"a.json", settings.dump()}, {}).tables.at("moments");
+      Pipeline().run(readSampleInput(), {"a.json", settings.dump()}, {}).tables.at("moments");
   settings["trial"]["force_lowpass_cutoff_hz"] = 20;
   const TimeSeries filtered =
-      Pipeline().run(openSampleTrial(), {"b.json", settings.dump()}, {}).tables.at("moments");
+      Pipeline().run(readSampleInput(), {"b.json", settings.dump()}, {}).tables.at("moments");
   const int hip = plain.getColumn("hip_flexion_r_moment");
   const double difference =
       (plain.values.col(hip) - filtered.values.col(hip)).cwiseAbs().maxCoeff();
