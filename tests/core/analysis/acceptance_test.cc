@@ -60,8 +60,8 @@ TEST(AcceptanceTable, TextHasOneLinePerRowAndTheVerdict) {
   const auto rows = makeAcceptanceTable(PaperTrial::kWalk, makeInput());
   const std::string text = renderAcceptanceTable(rows);
   EXPECT_EQ(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')), rows.size() + 1);
-  EXPECT_NE(text.find("RRA, largest rotation                         deg            1.50   < 2.00  "
-                      "   2.71  met"),
+  EXPECT_NE(text.find("CMC, largest RMS rotation                     deg            1.20   < "
+                      "1.00     0.26  MISSED"),
             std::string::npos)
       << text;
   EXPECT_NE(text.find("MISSED"), std::string::npos);
