@@ -6,6 +6,7 @@ namespace gaitmill::api {
 
 // 422 = the request is well formed but its content is not: everything a parser or a stage finds in
 // what was uploaded. No `default`, so that the compiler asks for the status of a new code.
+// NOLINTNEXTLINE(readability-function-size): one line per code is the table itself
 int httpStatus(ErrorCode code) {
   switch (code) {
     case ErrorCode::kRequestMalformed:

@@ -102,7 +102,8 @@ api::TrialView inspectTrial(const api::TrialUpload& upload) {
     try {
       findInspector(part)(file, understood, warnings);
     } catch (Error& error) {
-      throw error.addContext("reading the part '" + part + "'");
+      error.addContext("reading the part '" + part + "'");
+      throw;
     }
     view.files.push_back(understood);
     for (const std::string& warning : warnings) {

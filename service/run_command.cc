@@ -75,7 +75,9 @@ std::string describeExtent(const json& stage) {
 void appendQuality(const json& value, const std::string& path, std::string& text) {
   if (value.is_object()) {
     for (const auto& [name, child] : value.items()) {
-      appendQuality(child, path.empty() ? name : path + "." + name, text);
+      std::string child_path = path;
+      child_path.append(path.empty() ? "" : ".").append(name);
+      appendQuality(child, child_path, text);
     }
   } else if (value.is_number()) {
     text += fmt::format("{:<62} {:>12.4g}\n", path, value.get<double>());

@@ -10,7 +10,7 @@ namespace gaitmill {
 /// The settings documents that ship with the product: <models>/settings/<name>.json.
 class SettingsCatalog {
  public:
-  explicit SettingsCatalog(std::string models_folder) : folder_(models_folder + "/settings") {}
+  explicit SettingsCatalog(const std::string& models_folder) : folder_(models_folder + "/settings") {}
 
   /// @throws Error kSettingsValue naming the settings there are
   InputFile find(const std::string& name) const;

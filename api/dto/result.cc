@@ -113,7 +113,9 @@ void collectNumbers(const json& value, const std::string& path, Quantities& foun
     return;
   }
   for (const auto& [key, child] : value.items()) {
-    collectNumbers(child, path.empty() ? key : path + "." + key, found);
+    std::string child_path = path;
+    child_path.append(path.empty() ? "" : ".").append(key);
+    collectNumbers(child, child_path, found);
   }
 }
 

@@ -126,7 +126,8 @@ Connection::Connection(const std::string& path) {
     runScript(kPragmas);
   } catch (Error& error) {
     sqlite3_close(handle_);
-    throw error.setFile(path);
+    error.setFile(path);
+    throw;
   }
 }
 

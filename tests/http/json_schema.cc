@@ -1,9 +1,10 @@
 #include "tests/http/json_schema.h"
 
+#include <regex.h>
+
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <regex>
 
 namespace gaitmill {
 
@@ -11,6 +12,17 @@ namespace {
 
 using nlohmann::json;
 using Faults = std::vector<std::string>;
+
+// POSIX, because GCC 12 takes std::regex for uninitialized under the address sanitizer.
+bool matches(const std::string& text, const std::string& pattern) {
+  regex_t compiled{};
+  if (::regcomp(&compiled, pattern.c_str(), REG_EXTENDED | REG_NOSUB) != 0) {
+    return false;
+  }
+  const bool found = ::regexec(&compiled, text.c_str(), 0, nullptr, 0) == 0;
+  ::regfree(&compiled);
+  return found;
+}
 
 class Checker {
  public:
@@ -114,8 +126,8 @@ class Checker {
     expect(value <= high, place, "is above " + high.dump());
   }
   void checkPattern(const json& value, const json&, const json& regex, const std::string& place) {
-    const bool ok = !value.is_string() || std::regex_search(value.get<std::string>(),
-                                                            std::regex(regex.get<std::string>()));
+    const bool ok =
+        !value.is_string() || matches(value.get<std::string>(), regex.get<std::string>());
     expect(ok, place, value.dump() + " does not match " + regex.dump());
   }
   void checkAnyOf(const json& value, const json&, const json& list, const std::string& place) {
