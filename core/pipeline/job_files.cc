@@ -39,6 +39,19 @@ TimeSeries pickColumns(const std::string& name,
   return picked;
 }
 
+/// The rows of a table that lie in [start, end]; at least one.
+TimeSeries copyCovered(const TimeSeries& table, double start, double end) {
+  int first = 0;
+  int last = table.rowCount() - 1;
+  while (first < last && table.time[static_cast<std::size_t>(first)] < start) {
+    ++first;
+  }
+  while (last > first && table.time[static_cast<std::size_t>(last)] > end) {
+    --last;
+  }
+  return table.copyRows(first, last);
+}
+
 /// Moments of inverse dynamics, and beside them what the muscles make of them where CMC ran: on the
 /// rows of inverse dynamics that CMC covers.
 TimeSeries makeMoments(const Job& job) {
@@ -48,24 +61,23 @@ TimeSeries makeMoments(const Job& job) {
     return moments;
   }
   const TimeSeries& muscle = job.cmc->muscle_moment;
-  int first = 0;
-  int last = moments.rowCount() - 1;
-  while (first < last && moments.time[static_cast<std::size_t>(first)] < muscle.time.front()) {
-    ++first;
-  }
-  while (last > first && moments.time[static_cast<std::size_t>(last)] > muscle.time.back()) {
-    --last;
-  }
-  moments = moments.copyRows(first, last);
+  moments = copyCovered(moments, muscle.time.front(), muscle.time.back());
+  // Pelvis and arms have no muscles: columns that are zero throughout say nothing.
   TimeSeries beside = makeTimeSeries("muscle_moments", {}, moments.time);
-  for (const std::string& coordinate : muscle.labels) {
-    beside.labels.push_back(coordinate + "_muscle_moment");
-    beside.units.emplace_back("N.m");
+  std::vector<int> columns;
+  for (int column = 0; column < muscle.columnCount(); ++column) {
+    if (!muscle.values.col(column).isZero(0.0)) {
+      beside.labels.push_back(muscle.labels[static_cast<std::size_t>(column)] + "_muscle_moment");
+      beside.units.emplace_back("N.m");
+      columns.push_back(column);
+    }
   }
   beside.values.resize(moments.rowCount(), beside.columnCount());
   for (int row = 0; row < moments.rowCount(); ++row) {
-    beside.values.row(row) =
-        muscle.interpolate(moments.time[static_cast<std::size_t>(row)]).transpose();
+    const Eigen::VectorXd at_row = muscle.interpolate(moments.time[static_cast<std::size_t>(row)]);
+    for (int column = 0; column < beside.columnCount(); ++column) {
+      beside.values(row, column) = at_row[columns[static_cast<std::size_t>(column)]];
+    }
   }
   return joinColumns("moments", moments, beside);
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/cmc/cmc_solver.h"
 #include "core/id/id_solver.h"
 #include "core/ik/ik_solver.h"
@@ -216,9 +217,9 @@ void runSo(Job& job) {
 void warnInfeasible(Job& job) {
   for (const InfeasibleWindow& window : job.cmc->infeasible_windows) {
     std::string sentence = "cmc: the actuators cannot follow the motion in the window at " +
-                           std::to_string(window.time) + " s; missing";
+                           formatFixed(window.time, 3) + " s; missing";
     for (const InfeasibleWindow::Missing& missing : window.missing) {
-      sentence += " " + missing.coordinate + " " + std::to_string(missing.force);
+      sentence += " " + missing.coordinate + " " + formatFixed(missing.force, 2);
     }
     job.warn(sentence);
   }
@@ -240,6 +241,10 @@ void runCmc(Job& job) {
   options.actuators = makeActuators(job.settings.cmc_actuators, job.adjusted);
   job.cmc = solveCmc(model, reference, loads, options, makeProgress(Stage::kCmc, job));
   warnInfeasible(job);
+  if (job.cmc->stop == CmcStop::kDiverged) {
+    job.warn("cmc: the simulation ran away from the motion and ends at " +
+             formatFixed(job.cmc->pose.time.back(), 3) + " s; its last rows mean nothing");
+  }
 }
 
 void runStageBody(Stage stage, Job& job) {

@@ -83,6 +83,7 @@ Json summarizeStages(const Job& job) {
     stages["cmc"]["real_time_factor"] =
         job.seconds[static_cast<std::size_t>(Stage::kCmc)] / simulated;
     stages["cmc"]["windows"] = job.cmc->counters.windows;
+    stages["cmc"]["finished"] = job.cmc->stop == CmcStop::kFinished;
   }
   return stages;
 }

@@ -273,6 +273,7 @@ void readCmc(JsonFields fields, PipelineSettings& settings) {
       fields.flag("equilibrate_at_default_pose", cmc.equilibrate_at_default_pose);
   readNumber(fields, "integration_step_s", 1e-5, 0.1, cmc.integration_step);
   readNumber(fields, "excitation_tolerance", 1e-12, 0.1, cmc.excitation_tolerance);
+  readNumber(fields, "barrier", 0, 1, cmc.barrier);
   readChoice(fields,
              "solver",
              {{"dual", CmcQpSolver::kDual}, {"ipopt", CmcQpSolver::kIpopt}},
