@@ -37,6 +37,7 @@ class Musculoskeleton {
   const Eigen::VectorXd& pathSpeeds() const { return path_speeds_; }       ///< (muscles) [m/s]
   /// Path speeds of another velocity u (all coordinates) at the same pose.
   void calcPathSpeeds(const Eigen::Ref<const Eigen::VectorXd>& u,
+                      // NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref is the output
                       Eigen::Ref<Eigen::VectorXd> speeds) const {
     paths_.calcSpeeds(u, speeds);
   }

@@ -18,6 +18,8 @@ class ExternalLoads {
   ExternalLoads(const Model& model, const GroundReaction& reaction);
   ~ExternalLoads();
   ExternalLoads(ExternalLoads&&) noexcept;
+  ExternalLoads(const ExternalLoads&) = delete;
+  ExternalLoads& operator=(const ExternalLoads&) = delete;
 
   int count() const;
   /// Wrenches at time t [s], one per force, in the order of the ground reaction. `wrenches` is

@@ -42,6 +42,8 @@ class Model {
   ~Model();
   Model(Model&&) noexcept;
   Model& operator=(Model&&) noexcept;
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
 
   const ModelSpec& spec() const;
   int bodyCount() const;
@@ -68,14 +70,16 @@ class Model {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Kinematics and dynamics of a Model at one pose and speed. One per thread. Sizes its own memory in
-/// the constructor; what is allocated later, Simbody allocates. Speeds are the coordinates' time
+/// Kinematics and dynamics of a Model at one pose and speed. One per thread. Sizes its own memory
+/// in the constructor; what is allocated later, Simbody allocates. Speeds are the coordinates' time
 /// derivatives. Constraints (couplers, locks) play no role here: see FreeCoordinates.
 class ModelState {
  public:
   explicit ModelState(const Model& model);  ///< keeps a reference to the model
   ~ModelState();
   ModelState(ModelState&&) noexcept;
+  ModelState(const ModelState&) = delete;
+  ModelState& operator=(const ModelState&) = delete;
 
   const Model& model() const;
 

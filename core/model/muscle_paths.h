@@ -17,6 +17,8 @@ class MusclePaths {
   explicit MusclePaths(const Model& model);  ///< keeps a reference to the model
   ~MusclePaths();
   MusclePaths(MusclePaths&&) noexcept;
+  MusclePaths(const MusclePaths&) = delete;
+  MusclePaths& operator=(const MusclePaths&) = delete;
 
   /// Evaluates every path at the pose of `state`.
   void calc(const ModelState& state);
