@@ -241,25 +241,5 @@ TEST(Model, LoopsOrphansAndUnknownBodiesAreRefused) {
   EXPECT_THROW(Model{negative}, Error);
 }
 
-TEST(FreeCoordinates, PatellaFollowsTheKneeAndCarriesItsForce) {
-  const Model model(readOwnModel());
-  const FreeCoordinates free(model);
-  const int knee = model.getCoordinate("knee_angle_r").value();
-  const int beta = model.getCoordinate("knee_angle_r_beta").value();
-  Eigen::VectorXd q_free = Eigen::VectorXd::Zero(free.count());
-  q_free[free.findFree(CoordinateIndex(knee))] = 0.8;
-  Eigen::VectorXd q(model.coordinateCount());
-  free.expandPose(q_free, q);
-  EXPECT_EQ(q[beta], 0.8);
-  Eigen::VectorXd tau = Eigen::VectorXd::Zero(model.coordinateCount());
-  tau[knee] = 3;
-  tau[beta] = 4;
-  Eigen::VectorXd tau_free(free.count());
-  free.reduceForces(tau, tau_free);
-  EXPECT_EQ(tau_free[free.findFree(CoordinateIndex(knee))], 7);
-  EXPECT_EQ(free.findFree(CoordinateIndex(beta)), -1);
-  EXPECT_EQ(free.findFree(model.getCoordinate("subtalar_angle_r")), -1);
-}
-
 }  // namespace
 }  // namespace gaitmill
