@@ -91,7 +91,7 @@ std::string HttpClient::sendRaw(const std::string& bytes, const std::string& las
 
 nlohmann::json HttpClient::waitForState(const std::string& job_id,
                                         const std::vector<std::string>& states) const {
-  const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(5);
   std::string last = "nothing";
   while (std::chrono::steady_clock::now() < until) {
     const ClientReply reply = get("/v1/jobs/" + job_id);

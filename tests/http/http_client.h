@@ -39,7 +39,7 @@ class HttpClient {
   std::string sendRaw(const std::string& bytes, const std::string& last = "") const;
 
   /// Asks for the job every few milliseconds until it is in one of these states.
-  /// @throws std::runtime_error after 30 s
+  /// @throws std::runtime_error after five minutes, which even a sanitizer does not need
   nlohmann::json waitForState(const std::string& job_id,
                               const std::vector<std::string>& states) const;
 
