@@ -99,22 +99,26 @@ CmcRecorder::CmcRecorder(const Model& model,
   result_.tracking_error = makeTable("tracking_error", free_names_, units, max_windows + 1);
 }
 
+std::array<TimeSeries*, 11> CmcRecorder::findRowTables() {
+  return {{&result_.excitation,
+           &result_.activation,
+           &result_.fiber_length,
+           &result_.norm_fiber_velocity,
+           &result_.tendon_force,
+           &result_.passive_fiber_force,
+           &result_.path_length,
+           &result_.actuator_force,
+           &result_.pose,
+           &result_.speed,
+           &result_.muscle_moment}};
+}
+
 void CmcRecorder::addRow(const CmcState& state,
                          const Eigen::VectorXd& excitation,
                          const ForwardIntegrator& integrator,
                          const Musculoskeleton& body) {
   const int row = rows_++;
-  for (TimeSeries* table : {&result_.excitation,
-                            &result_.activation,
-                            &result_.fiber_length,
-                            &result_.norm_fiber_velocity,
-                            &result_.tendon_force,
-                            &result_.passive_fiber_force,
-                            &result_.path_length,
-                            &result_.actuator_force,
-                            &result_.pose,
-                            &result_.speed,
-                            &result_.muscle_moment}) {
+  for (TimeSeries* table : findRowTables()) {
     table->time[static_cast<std::size_t>(row)] = state.time;
   }
   result_.excitation.values.row(row) = excitation.transpose();
@@ -153,17 +157,7 @@ void CmcRecorder::addInfeasible(const CmcWindow& window) {
 }
 
 CmcResult CmcRecorder::take() {
-  for (TimeSeries* table : {&result_.excitation,
-                            &result_.activation,
-                            &result_.fiber_length,
-                            &result_.norm_fiber_velocity,
-                            &result_.tendon_force,
-                            &result_.passive_fiber_force,
-                            &result_.path_length,
-                            &result_.actuator_force,
-                            &result_.pose,
-                            &result_.speed,
-                            &result_.muscle_moment}) {
+  for (TimeSeries* table : findRowTables()) {
     trim(*table, rows_);
   }
   trim(result_.tracking_error, errors_);

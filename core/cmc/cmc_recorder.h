@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/cmc/cmc_controller.h"
@@ -36,6 +37,9 @@ class CmcRecorder {
   CmcResult take();
 
  private:
+  /// The tables with one row per integration step.
+  std::array<TimeSeries*, 11> findRowTables();
+
   const Model& model_;
   const std::vector<Muscle>& muscles_;
   std::vector<std::string> free_names_;
