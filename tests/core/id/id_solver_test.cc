@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "tests/support/model_files.h"
+#include "tests/support/simple_models.h"
 #include "tests/support/tolerance.h"
 
 namespace gaitmill {
@@ -39,19 +40,6 @@ TimeSeries makeSmoothMotion(const Model& model, int rows, double step) {
     }
   }
   return motion;
-}
-
-ModelSpec makePendulum(double mass, double length) {
-  ModelSpec spec;
-  spec.bodies = {{"bob", mass, {0, -length, 0}, {0, 0, 0, 0, 0, 0}, {}}};
-  JointSpec pin;
-  pin.name = "pin";
-  pin.kind = JointSpec::Kind::kPin;
-  pin.parent.body = "ground";
-  pin.child.body = "bob";
-  pin.coordinates = {{"angle"}};
-  spec.joints = {pin};
-  return spec;
 }
 
 // tau = m l^2 q'' + m g l sin q for q = 0.7 sin(3 t).

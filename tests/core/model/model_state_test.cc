@@ -9,24 +9,11 @@
 #include "core/model/free_coordinates.h"
 #include "core/model/model.h"
 #include "tests/support/model_files.h"
+#include "tests/support/simple_models.h"
 #include "tests/support/tolerance.h"
 
 namespace gaitmill {
 namespace {
-
-/// Rod of no mass with a point mass at its end, hanging from a pin about z.
-ModelSpec makePendulum(double mass, double length) {
-  ModelSpec spec;
-  spec.bodies = {{"bob", mass, {0, -length, 0}, {0, 0, 0, 0, 0, 0}, {}}};
-  JointSpec pin;
-  pin.name = "pin";
-  pin.kind = JointSpec::Kind::kPin;
-  pin.parent.body = "ground";
-  pin.child.body = "bob";
-  pin.coordinates = {{"angle"}};
-  spec.joints = {pin};
-  return spec;
-}
 
 struct Motion {
   Eigen::VectorXd q, u, udot;

@@ -6,28 +6,11 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "tests/support/simple_models.h"
 #include "tests/support/tolerance.h"
 
 namespace gaitmill {
 namespace {
-
-ModelSpec makeSlider() {
-  ModelSpec spec;
-  BodySpec body;
-  body.name = "cart";
-  body.mass = 1;
-  body.inertia = {0.1, 0.1, 0.1, 0, 0, 0};
-  spec.bodies.push_back(body);
-  JointSpec joint;
-  joint.name = "rail";
-  joint.kind = JointSpec::Kind::kSlider;
-  joint.parent.body = "ground";
-  joint.child.body = "cart";
-  joint.coordinates.emplace_back();
-  joint.coordinates.back().name = "x";
-  spec.joints.push_back(joint);
-  return spec;
-}
 
 TimeSeries makeSine(const std::string& label) {
   std::vector<double> time;
@@ -46,7 +29,7 @@ struct Motion {
 };
 
 Motion evaluate(const TimeSeries& table, double t) {
-  const Model model(makeSlider());
+  const Model model(makeSlider("cart"));
   const FreeCoordinates free(model);
   const ReferenceMotion reference(model, free, table);
   Motion m;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "tests/support/simple_models.h"
 #include "tests/support/tolerance.h"
 
 namespace gaitmill {
@@ -15,20 +16,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// One body on a slider with markers A, B 0.4 m apart along y and C 0.2 m beside A.
 ModelSpec makeModel() {
-  ModelSpec spec;
-  BodySpec body;
-  body.name = "thigh";
-  body.mass = 1;
-  body.inertia = {0.1, 0.1, 0.1, 0, 0, 0};
-  spec.bodies.push_back(body);
-  JointSpec joint;
-  joint.name = "rail";
-  joint.kind = JointSpec::Kind::kSlider;
-  joint.parent.body = "ground";
-  joint.child.body = "thigh";
-  joint.coordinates.emplace_back();
-  joint.coordinates.back().name = "x";
-  spec.joints.push_back(joint);
+  ModelSpec spec = makeSlider("thigh");
   spec.markers = {{"A", "thigh", {0, 0, 0}, false},
                   {"B", "thigh", {0, -0.4, 0}, false},
                   {"C", "thigh", {0, 0, 0.2}, false}};
