@@ -113,6 +113,10 @@ void runOnFiles(const RunOptions& options,
     writeFile(options.out + "/" + name, bytes);
   }
   out << formatSummary(result.summary_json);
+  const auto acceptance = result.files.find("acceptance.txt");
+  if (acceptance != result.files.end()) {
+    out << '\n' << acceptance->second;
+  }
 }
 
 }  // namespace gaitmill

@@ -29,6 +29,7 @@ struct Job {
   const TrialInput* input = nullptr;
   const PipelineEvents* events = nullptr;
   PipelineSettings settings;
+  std::string settings_json;  ///< the document that the settings were read from
   std::string models_folder;
 
   ModelSpec generic;   ///< unscaled, the strength law's reference
@@ -85,7 +86,7 @@ std::optional<std::string> makeAcceptanceText(const Job& job, const JobQuality& 
 void addTables(const Job& job, PipelineResult& result);
 void addFiles(const Job& job, PipelineResult& result);
 
-/// summary.json: stages with processor seconds and counts, quality, warnings.
+/// summary.json: stages with processor seconds and counts, quality, settings as given, warnings.
 std::string makeSummary(const Job& job, const JobQuality& quality);
 
 }  // namespace gaitmill

@@ -160,6 +160,7 @@ void addFiles(const Job& job, PipelineResult& result) {
   if (job.ik) {
     files["ik.mot"] = writeMotion(job.ik->coordinates, job.scaled);
     files["ik_marker_errors.sto"] = writeTable(job.ik->errors);
+    files["ik_marker_distances.sto"] = writeTable(job.ik->marker_errors);
   }
   if (job.rra) {
     files["rra.mot"] = writeMotion(job.motion, job.scaled);

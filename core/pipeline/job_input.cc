@@ -147,6 +147,7 @@ Job openJob(const TrialInput& input,
   job.events = &events;
   job.models_folder = models_folder;
   job.settings = readSettings(settings);
+  job.settings_json = settings.bytes;
   openModels(job);
   if (job.settings.runs(Stage::kScale)) {
     needPositive(input.mass, "mass", "kilograms");
