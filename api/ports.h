@@ -1,61 +1,194 @@
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "api/dto/catalog.h"
 #include "api/dto/job.h"
+#include "api/dto/page.h"
 #include "api/dto/result.h"
+#include "api/dto/study.h"
 #include "api/dto/trial.h"
+#include "api/http.h"
+#include "api/identity.h"
 #include "core/data/time_series.h"
 
 namespace gaitmill::api {
 
 /// All that a route may ask for. Implemented by the service on top of its storage, and by recording
 /// stubs in tests. Implementations are called from several threads at once and answer quickly: no
-/// solver runs behind a port.
+/// solver runs behind a port. Ids of another tenant do not exist: every look-up throws the same
+/// Error k…NotFound for them as for ids that nobody has.
 
 class TrialPort {
  public:
   virtual ~TrialPort() = default;
-  /// Reads every file, stores the trial durably and says what was understood.
+  /// Reads every file and says what was understood, storing nothing (id is empty).
   /// @throws Error of the parser with file, line and column; kInputMissing; kRequestField
-  virtual TrialView submit(TrialUpload upload) = 0;
+  virtual TrialView validate(const Identity& who, const TrialUpload& upload) = 0;
+  /// The same, and stores the trial durably. An upload without files is a trial to put files into.
+  /// @throws also Error kQuotaExceeded, kStorageFull
+  virtual TrialView submit(const Identity& who, const TrialUpload& upload) = 0;
+  /// Adds or replaces one file. @throws Error kTrialInUse once a job refers to the trial
+  virtual TrialView putFile(const Identity& who,
+                            const std::string& trial_id,
+                            const std::string& part,
+                            const UploadedFile& file) = 0;
+  virtual Page<TrialView> list(const Identity& who,
+                               const ListFilter& filter,
+                               const PageRequest& page) = 0;
   /// @throws Error kTrialNotFound
-  virtual TrialView find(const std::string& trial_id) = 0;
+  virtual TrialView find(const Identity& who, const std::string& trial_id) = 0;
+  /// @throws Error kTrialNotFound, kResultNotFound
+  virtual FileContent findFile(const Identity& who,
+                               const std::string& trial_id,
+                               const std::string& part) = 0;
+  /// Takes the bytes off the disk. @throws Error kTrialNotFound, kTrialInUse if jobs refer to it
+  virtual void remove(const Identity& who, const std::string& trial_id) = 0;
 };
 
 class JobPort {
  public:
   virtual ~JobPort() = default;
-  /// Durable before it returns. @throws Error kTrialNotFound, kSettings..., kInputMissing
-  virtual JobView submit(const JobRequest& request) = 0;
+  /// Durable before it returns.
+  /// @throws Error kTrialNotFound, kModelNotFound, kSettings..., kInputMissing, kQuotaExceeded
+  virtual JobView submit(const Identity& who, const JobRequest& request) = 0;
+  virtual Page<JobView> list(const Identity& who,
+                             const ListFilter& filter,
+                             const PageRequest& page) = 0;
   /// @throws Error kJobNotFound
-  virtual JobView find(const std::string& job_id) = 0;
-  /// A queued job is cancelled at once, a running one at its solver's next step.
+  virtual JobView find(const Identity& who, const std::string& job_id) = 0;
+  /// A queued job is cancelled at once, a running one within 100 ms.
   /// @throws Error kJobNotFound; kJobState if the job has already succeeded or failed
-  virtual JobView cancel(const std::string& job_id) = 0;
+  virtual JobView cancel(const Identity& who, const std::string& job_id) = 0;
+  /// With its results. @throws Error kJobNotFound; kJobState if it is not final
+  virtual void remove(const Identity& who, const std::string& job_id) = 0;
+  /// Events after `after`, oldest first, at most 1000. @throws Error kJobNotFound
+  virtual std::vector<JobEvent> listEvents(const Identity& who,
+                                           const std::string& job_id,
+                                           std::int64_t after) = 0;
+};
+
+class StudyPort {
+ public:
+  virtual ~StudyPort() = default;
+  /// All jobs or none. @throws as JobPort::submit
+  virtual StudyView submit(const Identity& who, const StudyRequest& request) = 0;
+  virtual Page<StudyView> list(const Identity& who,
+                               const ListFilter& filter,
+                               const PageRequest& page) = 0;
+  /// @throws Error kStudyNotFound
+  virtual StudyView find(const Identity& who, const std::string& study_id) = 0;
+  virtual std::vector<StudyRow> listRows(const Identity& who, const std::string& study_id) = 0;
+  /// Cancels its jobs that have not ended.
+  virtual StudyView cancel(const Identity& who, const std::string& study_id) = 0;
+  /// With its jobs and their results. @throws Error kJobState while one of them has not ended
+  virtual void remove(const Identity& who, const std::string& study_id) = 0;
 };
 
 class ResultPort {
  public:
   virtual ~ResultPort() = default;
-  /// A table in SI units and radians; on the cycle axis `time` holds percent.
-  /// @throws Error kJobNotFound; kResultNotReady before the job has succeeded; kResultNotFound
-  virtual TimeSeries findTable(const std::string& job_id,
-                               const std::string& name,
-                               TableAxis axis) = 0;
+  /// What there is so far, by name.
+  virtual std::vector<ResultView> list(const Identity& who, const std::string& job_id) = 0;
+  /// A table in SI units and radians; on the cycle axis `time` holds percent. Readable as soon as
+  /// its stage has finished.
+  /// @throws Error kJobNotFound; kResultNotReady before; kResultNotFound if the job has none
+  virtual ResultTable findTable(const Identity& who,
+                                const std::string& job_id,
+                                const std::string& name,
+                                TableAxis axis) = 0;
   /// The quality figures, a JSON object. @throws as findTable
-  virtual std::string findQuality(const std::string& job_id) = 0;
+  virtual std::string findQuality(const Identity& who, const std::string& job_id) = 0;
   /// Bytes of an OpenSim storage file with the table's angles in this unit, as its header says.
   virtual std::string encodeSto(const TimeSeries& table, AngleUnit angles) = 0;
-  virtual std::vector<FileView> listFiles(const std::string& job_id) = 0;
-  virtual FileContent findFile(const std::string& job_id, const std::string& name) = 0;
+  virtual std::vector<FileView> listFiles(const Identity& who, const std::string& job_id) = 0;
+  virtual FileContent findFile(const Identity& who,
+                               const std::string& job_id,
+                               const std::string& name) = 0;
+  /// Everything of a succeeded job as one zip: inputs, results, models, settings, checksums,
+  /// citation. @throws Error kResultNotReady
+  virtual FileContent makeArchive(const Identity& who, const std::string& job_id) = 0;
+};
+
+/// Models, or marker sets: one port for each.
+class CatalogPort {
+ public:
+  virtual ~CatalogPort() = default;
+  /// @throws Error of the reader that refuses the document
+  virtual CatalogEntry add(const Identity& who, const std::string& name, std::string document) = 0;
+  virtual Page<CatalogEntry> list(const Identity& who, const PageRequest& page) = 0;
+  /// By id, or by the name of a shipped one. @throws Error kModelNotFound or kMarkerSetNotFound
+  virtual CatalogEntry find(const Identity& who, const std::string& id) = 0;
+  virtual FileContent findDocument(const Identity& who, const std::string& id) = 0;
+  /// @throws Error kCatalogInUse if a trial or job refers to it, or if it ships with gaitmill
+  virtual void remove(const Identity& who, const std::string& id) = 0;
+};
+
+class SettingsPort {
+ public:
+  virtual ~SettingsPort() = default;
+  virtual std::vector<std::string> listNames() = 0;
+  /// A shipped document; "defaults" is the one with every field. @throws Error kSettingsNotFound
+  virtual std::string find(const std::string& name) = 0;
+};
+
+/// API keys, for administrators.
+class KeyPort {
+ public:
+  virtual ~KeyPort() = default;
+  virtual KeyView add(const Identity& who,
+                      const std::string& name,
+                      const std::vector<std::string>& scopes) = 0;
+  virtual std::vector<KeyView> list(const Identity& who) = 0;
+  /// @throws Error kKeyNotFound
+  virtual void revoke(const Identity& who, const std::string& key_id) = 0;
+};
+
+/// The first answer to a request with an Idempotency-Key, kept for a day.
+struct KeptAnswer {
+  std::string request_hash;  ///< of method, path and body
+  int status = 0;            ///< 0 while the first request is still being answered
+  std::string content_type;
+  std::string location;
+  std::string body;
+};
+
+class IdempotencyPort {
+ public:
+  virtual ~IdempotencyPort() = default;
+  /// Claims the key for this request, or returns what is there.
+  virtual std::optional<KeptAnswer> begin(const Identity& who,
+                                          const std::string& key,
+                                          const std::string& request_hash) = 0;
+  virtual void finish(const Identity& who, const std::string& key, const KeptAnswer& answer) = 0;
+  /// Gives the key back: the request failed on our side and may be sent again.
+  virtual void abandon(const Identity& who, const std::string& key) = 0;
+};
+
+/// What operators ask.
+class StatusPort {
+ public:
+  virtual ~StatusPort() = default;
+  /// Empty if jobs can be taken, else the reason why not.
+  virtual std::string findUnreadiness() = 0;
+  /// Prometheus text format 0.0.4.
+  virtual std::string renderMetrics() = 0;
 };
 
 struct Ports {
   TrialPort& trials;
   JobPort& jobs;
+  StudyPort& studies;
   ResultPort& results;
+  CatalogPort& models;
+  CatalogPort& marker_sets;
+  SettingsPort& settings;
+  KeyPort& keys;
+  IdempotencyPort& idempotency;
+  StatusPort& status;
 };
 
 }  // namespace gaitmill::api

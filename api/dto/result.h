@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "api/http.h"
 #include "core/data/time_series.h"
 
 namespace gaitmill::api {
@@ -12,8 +14,25 @@ enum class TableAxis { kTime, kCycle };
 enum class AngleUnit { kRadians, kDegrees };
 enum class ResultFormat { kJson, kCsv, kSto };
 
-/// "moments", "activations", "forces", "kinematics", "residuals"
+/// "moments", "activations", "excitations", "forces", "fiber_lengths", "fiber_velocities",
+/// "kinematics", "residuals", "reserves", "marker_errors", "joint_reactions"
 const std::vector<std::string>& tableNames();
+
+/// One result that a job has so far.
+struct ResultView {
+  std::string name;    ///< of tableNames(), or "quality"
+  std::string stage;   ///< that made it
+  bool has_cycle = false;  ///< also on the cycle axis
+};
+
+/// A table with what it comes from.
+struct ResultTable {
+  TimeSeries table;
+  std::string stage;       ///< that made it
+  std::string provenance;  ///< of the job, hex
+  std::string settings_json;
+  bool is_final = false;   ///< false while a later stage may still replace it
+};
 
 struct FileView {
   std::string name;
@@ -23,7 +42,7 @@ struct FileView {
 
 struct FileContent {
   FileView view;
-  std::string bytes;
+  std::shared_ptr<const ByteSource> bytes;
 };
 
 /// Format by the parameter `format` ("" if absent), else by the Accept header ("" = anything).

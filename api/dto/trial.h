@@ -2,23 +2,28 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "api/http.h"
 
 namespace gaitmill::api {
 
 struct UploadedFile {
   std::string name;  ///< the client's file name without folders, for messages only
-  std::string bytes;
+  std::shared_ptr<const ByteSource> bytes;
 };
 
 /// Who was measured: the JSON part "trial" of an upload.
 struct TrialSubject {
   double mass = 0;                        ///< [kg] "mass_kg", 5 to 300
   double height = 0;                      ///< [m] "height_m", 0.4 to 2.6
-  std::optional<std::string> marker_set;  ///< name of a set-up under models/marker_sets
+  std::optional<std::string> marker_set;  ///< a shipped set's name, or "mks_…"
   std::string options = "{}";             ///< settings that hold for every job of this trial, JSON
+  std::string subject;                    ///< the lab's own name for the person, to find it again
+  std::string label;                      ///< the lab's own name for the trial
 };
 
 /// The file parts a trial may have, in the order they are shown:
@@ -28,6 +33,23 @@ const std::vector<std::string>& trialParts();
 struct TrialUpload {
   TrialSubject subject;
   std::map<std::string, UploadedFile> files;  ///< by part name
+};
+
+/// Markers of one file against one known marker set.
+struct MarkerSetMatch {
+  std::string marker_set;
+  std::vector<std::string> found;
+  std::vector<std::string> missing;  ///< that the set's inverse kinematics asks for
+};
+
+/// One contact of one force plate or force column family with the ground.
+struct ContactView {
+  std::string plate;  ///< as the columns name it
+  std::string foot;   ///< "right", "left", or empty if it cannot be told
+  double strike = 0;  ///< [s]; start of the record if it began before
+  double toe_off = 0; ///< [s]; end of the record if it goes on
+  bool has_strike = false;
+  bool has_toe_off = false;
 };
 
 /// What the service read in one file. Numbers that do not apply to its kind are absent.
@@ -41,26 +63,38 @@ struct UnderstoodFile {
   std::optional<double> rate;   ///< [Hz]
   std::optional<double> start;  ///< [s]
   std::optional<double> end;    ///< [s]
+  std::string units;        ///< of lengths as the file states them: "mm", "m"; empty if it does not
   std::string labels_kind;  ///< "markers", "forces", "columns" or "muscles"
   std::vector<std::string> labels;
+  std::vector<MarkerSetMatch> marker_sets;  ///< of marker files, best match first
+  std::vector<ContactView> contacts;        ///< of ground reactions
+};
+
+struct GaitEventView {
+  std::string kind;  ///< "foot_strike", "toe_off"
+  std::string foot;  ///< "right", "left"
+  double time = 0;   ///< [s]
 };
 
 struct TrialView {
-  std::string id;
+  std::string id;               ///< empty after a dry run
   std::int64_t created_at = 0;  ///< [ms since 1970 UTC]
   TrialSubject subject;
   std::vector<UnderstoodFile> files;
+  std::vector<GaitEventView> events;  ///< by time
   std::vector<std::string> warnings;
 };
 
-/// Reads {"mass_kg", "height_m", "marker_set", "options"}; the last two may be absent.
+/// Reads {"mass_kg", "height_m", "marker_set", "options", "subject", "label"}; all but the first
+/// two may be absent.
 /// @throws Error kRequestMalformed, kRequestField naming the field
 TrialSubject parseTrialSubject(const std::string& json);
 
 std::string renderTrial(const TrialView& trial);
 
-/// The list of files as JSON and back: how a trial's reading is kept in storage.
-std::string encodeUnderstoodFiles(const std::vector<UnderstoodFile>& files);
-std::vector<UnderstoodFile> decodeUnderstoodFiles(const std::string& json);
+/// What was understood (files, events) as JSON and back: how a trial's reading is kept in storage,
+/// and how it comes back from the process that reads hostile bytes.
+std::string encodeUnderstanding(const TrialView& trial);
+void decodeUnderstanding(const std::string& json, TrialView& trial);
 
 }  // namespace gaitmill::api
