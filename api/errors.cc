@@ -10,18 +10,33 @@ namespace gaitmill::api {
 int httpStatus(ErrorCode code) {
   switch (code) {
     case ErrorCode::kRequestMalformed:
+    case ErrorCode::kRequestDigest:
     case ErrorCode::kUsage:
       return 400;
+    case ErrorCode::kUnauthorized:
+      return 401;
+    case ErrorCode::kForbidden:
+      return 403;
     case ErrorCode::kRequestNotFound:
     case ErrorCode::kTrialNotFound:
     case ErrorCode::kJobNotFound:
+    case ErrorCode::kStudyNotFound:
+    case ErrorCode::kModelNotFound:
+    case ErrorCode::kMarkerSetNotFound:
+    case ErrorCode::kSettingsNotFound:
+    case ErrorCode::kKeyNotFound:
     case ErrorCode::kResultNotFound:
       return 404;
     case ErrorCode::kRequestMethod:
       return 405;
     case ErrorCode::kRequestNotAcceptable:
       return 406;
+    case ErrorCode::kRequestTimeout:
+      return 408;
     case ErrorCode::kJobState:
+    case ErrorCode::kTrialInUse:
+    case ErrorCode::kCatalogInUse:
+    case ErrorCode::kIdempotencyBusy:
     case ErrorCode::kResultNotReady:
     case ErrorCode::kCancelled:
       return 409;
@@ -34,6 +49,8 @@ int httpStatus(ErrorCode code) {
       return 414;
     case ErrorCode::kRequestMediaType:
       return 415;
+    case ErrorCode::kRequestRange:
+      return 416;
     case ErrorCode::kFileEmpty:
     case ErrorCode::kFileNotTheData:
     case ErrorCode::kFileFormat:
@@ -75,17 +92,30 @@ int httpStatus(ErrorCode code) {
     case ErrorCode::kInputTimeRange:
     case ErrorCode::kInputValue:
     case ErrorCode::kRequestField:
+    case ErrorCode::kIdempotencyMismatch:
       return 422;
+    case ErrorCode::kQuotaExceeded:
+    case ErrorCode::kRequestRate:
+      return 429;
     case ErrorCode::kFileNotFound:
     case ErrorCode::kFileUnreadable:
     case ErrorCode::kFileUnwritable:
     case ErrorCode::kJobAbandoned:
+    case ErrorCode::kJobCrashed:
+    case ErrorCode::kJobTimeout:
+    case ErrorCode::kJobMemory:
+    case ErrorCode::kConfig:
     case ErrorCode::kStorage:
     case ErrorCode::kStorageVersion:
     case ErrorCode::kStorageInUse:
     case ErrorCode::kServicePort:
     case ErrorCode::kInternal:
       return 500;
+    case ErrorCode::kRequestBusy:
+    case ErrorCode::kServiceUnready:
+      return 503;
+    case ErrorCode::kStorageFull:
+      return 507;
   }
   return 500;
 }

@@ -1,7 +1,10 @@
 #include "core/base/error.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <utility>
 
 #include "core/base/progress.h"
@@ -10,8 +13,8 @@ namespace gaitmill {
 
 std::string_view codeName(ErrorCode code) {
   switch (code) {
-#define GAITMILL_ERROR(enumerator, name) \
-  case ErrorCode::enumerator:            \
+#define GAITMILL_ERROR(enumerator, name, fix) \
+  case ErrorCode::enumerator:                 \
     return name;
 #include "core/base/error_codes.inc"
 #undef GAITMILL_ERROR
@@ -19,9 +22,20 @@ std::string_view codeName(ErrorCode code) {
   return "internal";
 }
 
+std::string_view codeFix(ErrorCode code) {
+  switch (code) {
+#define GAITMILL_ERROR(enumerator, name, fix) \
+  case ErrorCode::enumerator:                 \
+    return fix;
+#include "core/base/error_codes.inc"
+#undef GAITMILL_ERROR
+  }
+  return "";
+}
+
 const std::vector<ErrorCode>& allErrorCodes() {
   static const std::vector<ErrorCode> codes = {
-#define GAITMILL_ERROR(enumerator, name) ErrorCode::enumerator,
+#define GAITMILL_ERROR(enumerator, name, fix) ErrorCode::enumerator,
 #include "core/base/error_codes.inc"
 #undef GAITMILL_ERROR
   };
@@ -40,32 +54,91 @@ Error& Error::addContext(std::string step) {
 }
 
 Error& Error::setFile(const std::string& file) {
-  if (where_.file.empty()) {
-    where_.file = file;
-    composeWhat();
-  }
+  Where known;
+  known.file = file;
+  return completeWhere(known);
+}
+
+Error& Error::completeWhere(const Where& known) {
+  where_.complete(known);
+  composeWhat();
   return *this;
 }
 
-void Error::composeWhat() {
-  what_.clear();
-  if (!where_.file.empty()) {
-    what_ += where_.file + ":";
+bool Where::isEmpty() const {
+  return file.empty() && line == 0 && column == 0 && field.empty() && stage.empty() &&
+         std::isnan(time) && marker.empty() && muscle.empty() && coordinate.empty();
+}
+
+void Where::complete(const Where& other) {
+  const auto take = [](std::string& mine, const std::string& theirs) {
+    mine = mine.empty() ? theirs : mine;
+  };
+  take(file, other.file);
+  line = line > 0 ? line : other.line;
+  column = column > 0 ? column : other.column;
+  take(field, other.field);
+  take(stage, other.stage);
+  time = std::isnan(time) ? other.time : time;
+  take(marker, other.marker);
+  take(muscle, other.muscle);
+  take(coordinate, other.coordinate);
+}
+
+namespace {
+
+/// "walk1.trc:214:1: subject.mass_kg: "
+std::string describeDocument(const Where& where) {
+  std::string text;
+  if (!where.file.empty()) {
+    text += where.file + ":";
   }
-  if (where_.line > 0) {
-    what_ += std::to_string(where_.line) + ":";
-    if (where_.column > 0) {
-      what_ += std::to_string(where_.column) + ":";
+  if (where.line > 0) {
+    text += std::to_string(where.line) + ":";
+    if (where.column > 0) {
+      text += std::to_string(where.column) + ":";
     }
   }
-  if (!what_.empty()) {
-    what_ += " ";
+  if (!text.empty()) {
+    text += " ";
   }
-  if (!where_.field.empty()) {
-    what_ += where_.field + ": ";
+  if (!where.field.empty()) {
+    text += where.field + ": ";
   }
-  what_ += message_;
-  what_ += " [" + std::string(codeName(code_)) + "]";
+  return text;
+}
+
+/// "stage ik, 0.350 s, marker RASI"
+std::string describeComputation(const Where& where) {
+  std::string text;
+  const auto add = [&](const std::string& part) {
+    text += (text.empty() ? "" : ", ") + part;
+  };
+  const auto addNamed = [&](const char* kind, const std::string& name) {
+    if (!name.empty()) {
+      add(kind + name);
+    }
+  };
+  addNamed("stage ", where.stage);
+  if (!std::isnan(where.time)) {
+    std::array<char, 32> seconds{};
+    std::snprintf(seconds.data(), seconds.size(), "%.3f s", where.time);
+    add(seconds.data());
+  }
+  addNamed("marker ", where.marker);
+  addNamed("muscle ", where.muscle);
+  addNamed("coordinate ", where.coordinate);
+  return text;
+}
+
+}  // namespace
+
+void Error::composeWhat() {
+  what_ = describeDocument(where_) + message_ + " [" + std::string(codeName(code_)) + "]";
+  const std::string computation = describeComputation(where_);
+  if (!computation.empty()) {
+    what_ += " (" + computation + ")";
+  }
   for (const std::string& step : context_) {
     what_ += " (" + step + ")";
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <exception>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,7 +10,7 @@ namespace gaitmill {
 
 /// Stable names of everything that can go wrong; see error_codes.inc for the list.
 enum class ErrorCode {
-#define GAITMILL_ERROR(enumerator, code) enumerator,
+#define GAITMILL_ERROR(enumerator, code, fix) enumerator,
 #include "core/base/error_codes.inc"
 #undef GAITMILL_ERROR
 };
@@ -17,16 +18,27 @@ enum class ErrorCode {
 /// "trc.column_count" for kTrcColumnCount. Never renamed once released.
 std::string_view codeName(ErrorCode code);
 
+/// What the user can do about an error of this kind: one sentence, the same for all occurrences.
+std::string_view codeFix(ErrorCode code);
+
 /// All codes, in declaration order (for tests and documentation).
 const std::vector<ErrorCode>& allErrorCodes();
 
-/// Place of a fault in the input. Line and column are 1-based, 0 = unknown. `field` names a JSON or
-/// XML element, a marker, a coordinate or a column label, whichever the reader would search for.
+/// Place of a fault, in the input or in the computation; what is not known stays empty.
 struct Where {
-  std::string file;
-  int line = 0;
-  int column = 0;
-  std::string field;
+  std::string file{};
+  int line = 0;         ///< 1-based, 0 = unknown
+  int column = 0;       ///< 1-based, 0 = unknown
+  std::string field{};  ///< JSON or XML element, request field or column label, as one would search
+  std::string stage{};  ///< "ik"; empty outside the stages
+  double time = std::numeric_limits<double>::quiet_NaN();  ///< [s] of the trial, NaN = unknown
+  std::string marker{};
+  std::string muscle{};
+  std::string coordinate{};
+
+  bool isEmpty() const;
+  /// Takes over the members of `other` that are not known here.
+  void complete(const Where& other);
 };
 
 /// The caller, the file or the request is wrong (or, for kInternal, we are). The message is one
@@ -44,6 +56,8 @@ class Error : public std::exception {
   Error& addContext(std::string step);
   /// Names the file where a parser only knew line and column. Keeps a name already set.
   Error& setFile(const std::string& file);
+  /// Adds what the thrower did not know of the place. Keeps what is already set.
+  Error& completeWhere(const Where& known);
 
   /// "walk1.trc:214:1: row has 124 values, 41 markers need 125 [trc.column_count] (reading
   /// markers)"

@@ -287,7 +287,9 @@ void runStage(Stage stage, Job& job) {
     }
     reportProgress(makeProgress(stage, job), 1.0);
   } catch (Error& error) {
-    error.addContext(std::string("stage ") + stageName(stage));
+    Where where;
+    where.stage = stageName(stage);
+    error.completeWhere(where);
     throw;
   }
   job.seconds[static_cast<std::size_t>(stage)] = std::max(1e-9, readProcessorClock() - before);

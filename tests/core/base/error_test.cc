@@ -1,5 +1,7 @@
 #include "core/base/error.h"
 
+#include <cctype>
+#include <regex>
 #include <set>
 #include <string>
 
@@ -27,10 +29,45 @@ TEST(Error, KeepsTheFileNameItWasGivenFirst) {
   EXPECT_EQ(error.where().file, "a.trc");
 }
 
-TEST(ErrorCode, NamesAreUnique) {
+TEST(Error, SaysWhereInTheComputation) {
+  Where where;
+  where.time = 0.35;
+  where.marker = "RASI";
+  Error error(ErrorCode::kInputMarkers, "is seen in no frame", where);
+  Where outer;
+  outer.stage = "ik";
+  outer.marker = "LASI";
+  error.completeWhere(outer);
+  EXPECT_STREQ(error.what(),
+               "is seen in no frame [input.markers] (stage ik, 0.350 s, marker RASI)");
+}
+
+TEST(Where, IsEmptyUntilOneMemberIsKnown) {
+  EXPECT_TRUE(Where{}.isEmpty());
+  Where time_only;
+  time_only.time = 0;
+  EXPECT_FALSE(time_only.isEmpty());
+  EXPECT_FALSE((Where{"", 0, 0, "field"}.isEmpty()));
+}
+
+TEST(ErrorCode, NamesAreUniqueDottedLowerCaseWords) {
+  const std::regex form("[a-z_]+(\\.[a-z_]+)*");
   std::set<std::string> names;
   for (const ErrorCode code : allErrorCodes()) {
-    EXPECT_TRUE(names.insert(std::string(codeName(code))).second) << codeName(code);
+    const std::string name(codeName(code));
+    EXPECT_TRUE(std::regex_match(name, form)) << name;
+    EXPECT_TRUE(names.insert(name).second) << name;
+  }
+}
+
+TEST(ErrorCode, EveryCodeSaysInOneSentenceOfItsOwnWhatToDo) {
+  std::set<std::string> sentences;
+  for (const ErrorCode code : allErrorCodes()) {
+    const std::string fix(codeFix(code));
+    EXPECT_GE(fix.size(), 30U) << codeName(code);
+    EXPECT_LE(fix.size(), 120U) << codeName(code);
+    EXPECT_TRUE(!fix.empty() && fix.back() == '.' && std::isupper(fix.front()) != 0) << fix;
+    EXPECT_TRUE(sentences.insert(fix).second) << fix;
   }
 }
 

@@ -155,7 +155,7 @@ TEST(PipelineTest, CancellingStopsWithinAStage) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::kCancelled);
     ASSERT_FALSE(error.context().empty());
-    EXPECT_EQ(error.context().back(), "stage cmc");
+    EXPECT_EQ(error.where().stage, "cmc");
   }
 }
 
