@@ -62,7 +62,8 @@ struct HttpRequest {
 /// Wakes long polls and event streams: "job_…" or "stu_…", the id of what changed.
 using Topic = std::string;
 
-/// A request that is to be asked again when `topic` changes, or once with `wait_is_over`.
+/// A request that is to be asked again when `topic` changes, or once with `wait_is_over`. The
+/// handler then gets the same request object, with whatever it changed in it.
 struct Park {
   Topic topic;
   std::chrono::milliseconds limit{0};

@@ -1,23 +1,35 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "api/http.h"
+#include "api/identity.h"
 
 namespace gaitmill::api {
 
-enum class BodyKind { kNone, kJson, kMultipart };
+/// What a route takes as its body. Anything else is refused with 415 before the body is read.
+enum class BodyKind {
+  kNone,             ///< a short body is read and ignored
+  kJson,             ///< application/json
+  kMultipart,        ///< multipart/form-data
+  kMultipartOrJson,  ///< either
+  kBytes,            ///< any media type, taken as it is
+};
 
 /// One route: "/v1/jobs/{id}" with its method, the body it takes and what it does. The handler may
-/// move parts out of the request and throws Error.
+/// move parts out of the request and throws Error. A handler that parks its request is called again
+/// with the same request object, and so finds what it noted there.
 struct Route {
   std::string method;
   std::string pattern;
   BodyKind body = BodyKind::kNone;
   std::function<HttpReply(HttpRequest&)> handle;
+  Scope scope = Scope::kNone;   ///< of the key, where the service has keys; kNone = open to all
+  std::uint64_t max_bytes = 0;  ///< [bytes] of the body; 0 = the server's limit for its kind
 };
 
 struct RouteMatch {

@@ -71,7 +71,8 @@ void send(const HttpReply& reply, httplib::Response& response) {
     response.set_header(name, value);
   }
   response.set_header("X-Content-Type-Options", "nosniff");
-  response.set_content(reply.body, reply.content_type);
+  response.set_content(reply.source ? readAll(*reply.source, reply.source->size()) : reply.body,
+                       reply.content_type);
 }
 
 // Faults that the library finds by itself reach us as a bare status.
@@ -103,10 +104,16 @@ class Server::Transport : public httplib::Server {
     Get(".*", [this](const httplib::Request& request, httplib::Response& response) {
       dispatch(request, response, nullptr);
     });
-    Post(".*",
-         [this](const httplib::Request& request,
-                httplib::Response& response,
-                const httplib::ContentReader& reader) { dispatch(request, response, &reader); });
+    const auto read_and_dispatch = [this](const httplib::Request& request,
+                                          httplib::Response& response,
+                                          const httplib::ContentReader& reader) {
+      dispatch(request, response, &reader);
+    };
+    Post(".*", read_and_dispatch);
+    Put(".*", read_and_dispatch);
+    Delete(".*", [this](const httplib::Request& request, httplib::Response& response) {
+      dispatch(request, response, nullptr);
+    });
     set_logger([this](const httplib::Request& request, const httplib::Response& response) {
       log_(LogLevel::kDebug,
            request.method + " " + request.path + " " + std::to_string(response.status));
@@ -236,7 +243,9 @@ class Server::Transport : public httplib::Server {
 
   void checkBody(const httplib::Request& request, const Route& route) const {
     const std::uint64_t length = findContentLength(request).value_or(0);
-    const bool is_upload = route.body == BodyKind::kMultipart;
+    const std::string type = findMediaType(request);
+    const bool is_upload = route.body == BodyKind::kMultipart || route.body == BodyKind::kBytes ||
+                           (route.body == BodyKind::kMultipartOrJson && type != "application/json");
     const std::uint64_t limit = is_upload ? options_.max_upload_bytes : options_.max_json_bytes;
     require(length <= limit,
             ErrorCode::kRequestTooLarge,
@@ -247,7 +256,8 @@ class Server::Transport : public httplib::Server {
       return;
     }
     const std::string expected = is_upload ? "multipart/form-data" : "application/json";
-    require(findMediaType(request) == expected && !request.has_header("Content-Encoding"),
+    require((type == expected || route.body == BodyKind::kBytes) &&
+                !request.has_header("Content-Encoding"),
             ErrorCode::kRequestMediaType,
             "the body must be " + expected + " without Content-Encoding",
             {"", 0, 0, "Content-Type"});
@@ -302,11 +312,13 @@ class Server::Transport : public httplib::Server {
     for (const auto& [name, value] : request.params) {
       parsed.query.emplace(name, value);
     }
-    parsed.accept = request.get_header_value("Accept");
+    for (const auto& [name, value] : request.headers) {
+      parsed.headers.emplace(toLower(name), value);
+    }
+    std::string body;
     if (reader != nullptr && findContentLength(request).value_or(0) > 0) {
-      const bool complete = match.route->body == BodyKind::kMultipart
-                                ? readParts(*reader, parsed.parts)
-                                : readBody(*reader, parsed.body);
+      const bool complete = request.is_multipart_form_data() ? readParts(*reader, parsed.parts)
+                                                             : readBody(*reader, body);
       require(complete,
               ErrorCode::kRequestMalformed,
               match.route->body == BodyKind::kMultipart
@@ -315,6 +327,7 @@ class Server::Transport : public httplib::Server {
                   : "the body is incomplete",
               {"", 0, 0, "body"});
     }
+    parsed.body = makeByteSource(std::move(body));
     return parsed;
   }
 
@@ -326,15 +339,21 @@ class Server::Transport : public httplib::Server {
   }
 
   bool readParts(const httplib::ContentReader& reader, std::vector<BodyPart>& parts) const {
-    return reader(
+    std::vector<std::string> contents;
+    const bool complete = reader(
         [&](const httplib::MultipartFormData& part) {
-          parts.push_back({part.name, part.filename, ""});
+          parts.push_back({part.name, part.filename, nullptr});
+          contents.emplace_back();
           return parts.size() <= options_.max_parts;
         },
-        [&parts](const char* bytes, std::size_t size) {
-          parts.back().bytes.append(bytes, size);
+        [&contents](const char* bytes, std::size_t size) {
+          contents.back().append(bytes, size);
           return true;
         });
+    for (std::size_t i = 0; i < contents.size(); ++i) {
+      parts[i].bytes = makeByteSource(std::move(contents[i]));
+    }
+    return complete;
   }
 
   Router router_;
@@ -361,6 +380,12 @@ void Server::run() {
 
 void Server::stop() {
   transport_->stopServing();
+}
+
+void Server::notify(const Topic&) {}
+
+ServerLoad Server::load() const {
+  return {};
 }
 
 }  // namespace gaitmill::api
