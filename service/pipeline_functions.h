@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "api/dto/result.h"
 #include "api/dto/trial.h"
@@ -9,20 +10,31 @@
 
 namespace gaitmill {
 
-using PipelineRunner = std::function<PipelineResult(
-    const TrialInput& input, const InputFile& settings, const PipelineEvents& events)>;
-using SettingsCheck = std::function<void(const InputFile& settings)>;
-/// Reads every file of an upload; fills `files` and `warnings` of the view.
+/// As Pipeline::run: goes on after the stages whose checkpoints are given.
+using PipelineRunner = std::function<PipelineResult(const TrialInput& input,
+                                                    const InputFile& settings,
+                                                    const PipelineEvents& events,
+                                                    const std::vector<std::string>& checkpoints)>;
+/// As Pipeline::checkInput: whether a job can start. Looks only at which files there are.
+using InputCheck = std::function<void(const TrialInput& input, const InputFile& settings)>;
+/// Reads every file of an upload; fills `files`, `events` and `warnings` of the view, without the
+/// match against marker sets. Called from several threads at once.
 /// @throws Error of the parser that refuses a file
 using TrialInspector = std::function<api::TrialView(const api::TrialUpload& upload)>;
+/// A catalog document to the JSON of what was understood (api::CatalogEntry::summary_json).
+/// @throws Error of the reader that refuses it
+using DocumentReader = std::function<std::string(const InputFile& document)>;
 using StoEncoder = std::function<std::string(const TimeSeries& table, api::AngleUnit angles)>;
 
 /// What the service needs of the physics, so that its tests can put something quick in its place.
 struct PipelineFunctions {
   PipelineRunner run;
-  SettingsCheck check_settings;
+  InputCheck check_input;
   TrialInspector inspect;
+  DocumentReader read_model;
+  DocumentReader read_marker_set;  ///< JSON with the members "markers", those of inverse kinematics
   StoEncoder encode_sto;
+  std::string default_settings;  ///< a document with every field and its default
 };
 
 }  // namespace gaitmill

@@ -22,7 +22,8 @@ struct JobRequest {
   std::string settings_name;  ///< one of models/settings, or empty
   std::string settings_json;  ///< a settings document, or empty
   std::string label;
-  std::string model_id;       ///< empty = the trial's own model, or the one that ships
+  std::string model_id;        ///< empty = the trial's own model, or the one that ships
+  std::string submission_key;  ///< not of the document: the request's Idempotency-Key, or empty
 };
 
 /// How long one stage has taken, wall-clock [s]; of the attempt that finished it.
@@ -35,15 +36,15 @@ struct StageTiming {
 struct JobView {
   std::string id;
   std::string trial_id;
-  std::string study_id;       ///< empty if submitted alone
-  std::string model_id;       ///< empty if none was named
+  std::string study_id;  ///< empty if submitted alone
+  std::string model_id;  ///< empty if none was named
   std::string label;
   std::string subject;        ///< of the trial
   std::string settings_name;  ///< empty if the job brought its own document
   std::string settings_json;  ///< the whole document the job runs with; empty in lists
   JobState state = JobState::kQueued;
-  std::int64_t version = 0;   ///< grows with every change that the view shows: the ETag
-  int attempt = 0;            ///< 0 before the first
+  std::int64_t version = 0;  ///< grows with every change that the view shows: the ETag
+  int attempt = 0;           ///< 0 before the first
   bool cancel_requested = false;
   std::vector<StageTiming> stages;          ///< those begun so far, in order
   std::int64_t submitted_at = 0;            ///< [ms since 1970 UTC]
@@ -59,10 +60,10 @@ struct JobView {
 
 /// One step of a job's life, for server-sent events.
 struct JobEvent {
-  std::int64_t id = 0;       ///< ascends within a job: the Last-Event-ID
-  std::int64_t at = 0;       ///< [ms since 1970 UTC]
-  std::string kind;          ///< "state", "stage", "progress", "warning"
-  std::string data;          ///< JSON object
+  std::int64_t id = 0;  ///< ascends within a job: the Last-Event-ID
+  std::int64_t at = 0;  ///< [ms since 1970 UTC]
+  std::string kind;     ///< "state", "stage", "progress", "warning"
+  std::string data;     ///< JSON object
 };
 
 /// @throws Error kRequestMalformed, kRequestField naming the field

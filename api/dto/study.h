@@ -14,6 +14,8 @@ namespace gaitmill::api {
 struct StudyRequest {
   std::string name;
   std::vector<JobRequest> jobs;  ///< trials × settings, trial by trial
+  std::string label;             ///< of the study and of its jobs
+  std::string submission_key;    ///< not of the document: the request's Idempotency-Key, or empty
 };
 
 struct StudyView {

@@ -33,6 +33,7 @@ const std::vector<std::string>& trialParts();
 struct TrialUpload {
   TrialSubject subject;
   std::map<std::string, UploadedFile> files;  ///< by part name
+  std::string submission_key;                 ///< the request's Idempotency-Key, or empty
 };
 
 /// Markers of one file against one known marker set.
@@ -44,10 +45,10 @@ struct MarkerSetMatch {
 
 /// One contact of one force plate or force column family with the ground.
 struct ContactView {
-  std::string plate;  ///< as the columns name it
-  std::string foot;   ///< "right", "left", or empty if it cannot be told
-  double strike = 0;  ///< [s]; start of the record if it began before
-  double toe_off = 0; ///< [s]; end of the record if it goes on
+  std::string plate;   ///< as the columns name it
+  std::string foot;    ///< "right", "left", or empty if it cannot be told
+  double strike = 0;   ///< [s]; start of the record if it began before
+  double toe_off = 0;  ///< [s]; end of the record if it goes on
   bool has_strike = false;
   bool has_toe_off = false;
 };

@@ -11,5 +11,14 @@ TEST(CalcSha256, MatchesTheStandard) {
   EXPECT_EQ(calcSha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
 }
 
+TEST(Sha256, PiecesGiveTheHashOfTheWhole) {
+  Sha256 hash;
+  hash.update("a");
+  hash.update("");
+  hash.update("bc");
+  EXPECT_EQ(hash.finish(), calcSha256("abc"));
+  EXPECT_EQ(Sha256().finish(), calcSha256(""));
+}
+
 }  // namespace
 }  // namespace gaitmill
