@@ -51,6 +51,8 @@ int httpStatus(ErrorCode code) {
       return 415;
     case ErrorCode::kRequestRange:
       return 416;
+    case ErrorCode::kRequestHeadersTooLarge:
+      return 431;
     case ErrorCode::kFileEmpty:
     case ErrorCode::kFileNotTheData:
     case ErrorCode::kFileFormat:
