@@ -7,6 +7,7 @@
 #include "api/request_head.h"
 #include "api/router.h"
 #include "api/server.h"
+#include "core/base/error.h"
 
 namespace gaitmill::api {
 
