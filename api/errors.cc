@@ -104,6 +104,7 @@ int httpStatus(ErrorCode code) {
     case ErrorCode::kFileUnwritable:
     case ErrorCode::kJobAbandoned:
     case ErrorCode::kJobCrashed:
+    case ErrorCode::kCheckpointUnusable:
     case ErrorCode::kJobTimeout:
     case ErrorCode::kJobMemory:
     case ErrorCode::kConfig:

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +33,9 @@ struct Job {
   PipelineSettings settings;
   std::string settings_json;  ///< the document that the settings were read from
   std::string models_folder;
+  std::uint64_t fingerprint = 0;  ///< of input and settings; checkpoints carry it
+  /// What an earlier run has said already is not said again.
+  bool quiet = false;
 
   ModelSpec generic;   ///< unscaled, the strength law's reference
   ModelSpec scaled;    ///< of the subject; what residual reduction starts from
@@ -55,14 +60,30 @@ struct Job {
   void warn(const std::string& sentence);
 };
 
-/// Reads the settings and all input files that the chosen stages need. @throws Error
+/// Checks that the stages have the parts and numbers of the subject that they need. Looks at no
+/// byte of a file. @throws Error kInputMissing, kInputValue naming the part
+void checkParts(const TrialInput& input, const PipelineSettings& settings);
+
+/// The marker set that came with the input, else the one that the settings name.
+/// @throws Error kMarkerSetNotFound, kSettingsValue, and what readMarkerSet throws
+MarkerSetSpec openMarkerSet(const TrialInput& input,
+                            const PipelineSettings& settings,
+                            const std::string& models_folder);
+
+/// Reads the settings and all input files that the chosen stages need. `resumed`: an earlier run
+/// has passed on the warnings of these files. @throws Error
 Job openJob(const TrialInput& input,
             const InputFile& settings,
             const std::string& models_folder,
-            const PipelineEvents& events);
+            const PipelineEvents& events,
+            bool resumed);
 
-/// Runs one stage on what the job has. @throws Error with the stage as context
+/// Runs one stage on what the job has, and takes its result over.
+/// @throws Error with the stage in `where`
 void runStage(Stage stage, Job& job);
+
+/// Makes a stage's result what later stages work on: models, motion.
+void takeOver(Stage stage, Job& job);
 
 /// The gait cycle of the right foot: as set, else the first two strikes in the forces; empty if
 /// there are none.
@@ -82,9 +103,8 @@ JobQuality calcQuality(const Job& job);
 /// unless the settings say that the job is one of the paper's trials and all stages ran.
 std::optional<std::string> makeAcceptanceText(const Job& job, const JobQuality& quality);
 
-/// Tables and files of a finished job, without the summary.
-void addTables(const Job& job, PipelineResult& result);
-void addFiles(const Job& job, PipelineResult& result);
+/// Tables and files that a stage adds or replaces, once it has run; without checkpoint and summary.
+StageOutcome makeOutcome(Stage stage, const Job& job);
 
 /// summary.json: stages with processor seconds and counts, quality, settings as given, warnings.
 std::string makeSummary(const Job& job, const JobQuality& quality);

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "core/analysis/acceptance.h"
+#include "core/base/error.h"
 #include "core/io/osim_writer.h"
 #include "core/io/table_writer.h"
 #include "core/math/events.h"
@@ -82,11 +84,6 @@ TimeSeries makeMoments(const Job& job) {
   return joinColumns("moments", moments, beside);
 }
 
-/// Coordinates as later stages saw them.
-const TimeSeries& findKinematics(const Job& job) {
-  return job.cmc ? job.cmc->pose : job.motion;
-}
-
 std::string writeMotion(const TimeSeries& coordinates, const ModelSpec& model) {
   TableWriteOptions options;
   options.angles = AngleUnit::kDegrees;
@@ -94,27 +91,112 @@ std::string writeMotion(const TimeSeries& coordinates, const ModelSpec& model) {
   return writeTable(coordinates, options);
 }
 
-void addStageTables(const Job& job, PipelineResult& result) {
+/// Forces of the residual actuators, named FX ... MZ.
+TimeSeries pickResiduals(const TimeSeries& actuator_forces) {
+  return pickColumns("residuals", actuator_forces, {"FX", "FY", "FZ", "MX", "MY", "MZ"});
+}
+
+/// Forces of the actuators that were added to joints, beside the model's own.
+TimeSeries pickReserves(const TimeSeries& forces, const std::vector<ActuatorSpec>& actuators) {
+  std::vector<std::string> names;
+  for (const ActuatorSpec& actuator : actuators) {
+    if (actuator.kind == ActuatorSpec::Kind::kCoordinate) {
+      names.push_back(actuator.name);
+    }
+  }
+  return pickColumns("reserves", forces, names);
+}
+
+/// Fiber velocities in metres per second, lengthening positive.
+TimeSeries makeFiberVelocities(const Job& job) {
+  TimeSeries velocities = job.cmc->norm_fiber_velocity;
+  velocities.name = "fiber_velocities";
+  for (int column = 0; column < velocities.columnCount(); ++column) {
+    const int muscle = job.adjusted.findMuscle(velocities.labels[static_cast<std::size_t>(column)]);
+    check(muscle >= 0, "a fiber velocity belongs to no muscle");
+    const MuscleSpec& spec = job.adjusted.muscles[static_cast<std::size_t>(muscle)];
+    velocities.values.col(column) *= spec.optimal_fiber_length * spec.max_contraction_velocity;
+  }
+  velocities.units.assign(velocities.labels.size(), "m/s");
+  return velocities;
+}
+
+void addScale(const Job& job, StageOutcome& outcome) {
+  outcome.files["scaled_model.osim"] = writeOsim(job.scaled);
+  outcome.files["adjusted_model.osim"] = writeOsim(job.adjusted);
+}
+
+void addIk(const Job& job, StageOutcome& outcome) {
+  outcome.tables["kinematics"] = job.motion;
+  outcome.tables["marker_errors"] = job.ik->marker_errors;
+  outcome.files["ik.mot"] = writeMotion(job.ik->coordinates, job.scaled);
+  outcome.files["ik_marker_errors.sto"] = writeTable(job.ik->errors);
+  outcome.files["ik_marker_distances.sto"] = writeTable(job.ik->marker_errors);
+}
+
+void addRra(const Job& job, StageOutcome& outcome) {
+  outcome.tables["kinematics"] = job.motion;
+  outcome.tables["residuals"] = pickResiduals(job.rra->passes.back().actuator_forces);
+  outcome.files["rra.mot"] = writeMotion(job.motion, job.scaled);
+  outcome.files["adjusted_model.osim"] = writeOsim(job.adjusted);
+}
+
+void addId(const Job& job, StageOutcome& outcome) {
+  if (!job.ik && !job.rra) {
+    outcome.tables["kinematics"] = job.motion;
+  }
+  outcome.tables["moments"] = makeMoments(job);
+  outcome.files["inverse_dynamics.sto"] = writeTable(job.id->generalized_forces);
+  outcome.files["moments.csv"] = writeCsv(outcome.tables["moments"]);
+}
+
+void addSo(const Job& job, StageOutcome& outcome) {
+  if (!job.ik && !job.rra && !job.id) {
+    outcome.tables["kinematics"] = job.motion;
+  }
+  outcome.tables["activations"] = job.so->activations;
+  outcome.tables["forces"] = job.so->forces;
+  outcome.tables["reserves"] =
+      pickReserves(job.so->forces, makeActuators(job.settings.so_actuators, job.adjusted));
+  outcome.files["so_activations.sto"] = writeTable(job.so->activations);
+  outcome.files["so_forces.sto"] = writeTable(job.so->forces);
+}
+
+void addCmc(const Job& job, StageOutcome& outcome) {
+  const CmcResult& cmc = *job.cmc;
+  outcome.tables["activations"] = cmc.activation;
+  outcome.tables["excitations"] = cmc.excitation;
+  outcome.tables["forces"] = joinColumns("forces", cmc.tendon_force, cmc.actuator_force);
+  outcome.tables["fiber_lengths"] = cmc.fiber_length;
+  outcome.tables["fiber_velocities"] = makeFiberVelocities(job);
+  outcome.tables["kinematics"] = cmc.pose;
+  outcome.tables["residuals"] = pickResiduals(cmc.actuator_force);
+  outcome.tables["reserves"] = pickReserves(cmc.actuator_force, cmc.options.actuators);
   if (job.id) {
-    result.tables["moments"] = makeMoments(job);
+    outcome.tables["moments"] = makeMoments(job);
+    outcome.files["moments.csv"] = writeCsv(outcome.tables["moments"]);
   }
-  if (job.cmc) {
-    result.tables["activations"] = job.cmc->activation;
-    result.tables["excitations"] = job.cmc->excitation;
-    result.tables["forces"] = joinColumns("forces", job.cmc->tendon_force, job.cmc->actuator_force);
-  } else if (job.so) {
-    result.tables["activations"] = job.so->activations;
-    result.tables["forces"] = job.so->forces;
-  }
-  if (!job.motion.time.empty()) {
-    result.tables["kinematics"] = findKinematics(job);
-  }
-  const std::vector<std::string> residuals = {"FX", "FY", "FZ", "MX", "MY", "MZ"};
-  if (job.cmc) {
-    result.tables["residuals"] = pickColumns("residuals", job.cmc->actuator_force, residuals);
-  } else if (job.rra) {
-    result.tables["residuals"] =
-        pickColumns("residuals", job.rra->passes.back().actuator_forces, residuals);
+  outcome.files["cmc_activations.sto"] = writeTable(cmc.activation);
+  outcome.files["cmc_excitations.sto"] = writeTable(cmc.excitation);
+  outcome.files["cmc_forces.sto"] = writeTable(outcome.tables["forces"]);
+  outcome.files["cmc_fiber_lengths.sto"] = writeTable(cmc.fiber_length);
+  outcome.files["cmc_kinematics.mot"] = writeMotion(cmc.pose, job.adjusted);
+}
+
+void addStage(Stage stage, const Job& job, StageOutcome& outcome) {
+  switch (stage) {
+    case Stage::kScale:
+      return addScale(job, outcome);
+    case Stage::kIk:
+      return addIk(job, outcome);
+    case Stage::kRra:
+      return addRra(job, outcome);
+    case Stage::kId:
+      return addId(job, outcome);
+    case Stage::kSo:
+      return addSo(job, outcome);
+    case Stage::kCmc:
+      return addCmc(job, outcome);
   }
 }
 
@@ -142,47 +224,21 @@ std::optional<GaitCycle> findGaitCycle(const Job& job) {
   return GaitCycle{strikes[0], strikes[1]};
 }
 
-void addTables(const Job& job, PipelineResult& result) {
-  addStageTables(job, result);
+StageOutcome makeOutcome(Stage stage, const Job& job) {
+  StageOutcome outcome;
+  outcome.stage = stage;
+  addStage(stage, job, outcome);
   const std::optional<GaitCycle> cycle = findGaitCycle(job);
-  for (const auto& [name, table] : result.tables) {
-    if (cycle && table.rowCount() > 1) {
-      result.cycle_tables[name] = normalizeToCycle(table, *cycle);
+  for (auto entry = outcome.tables.begin(); entry != outcome.tables.end();) {
+    auto& [name, table] = *entry;
+    table.name = name;
+    check(table.units.size() == table.labels.size(), "a result has columns without unit");
+    if (cycle && table.rowCount() > 1 && table.columnCount() > 0) {
+      outcome.cycle_tables[name] = normalizeToCycle(table, *cycle);
     }
+    entry = table.labels.empty() ? outcome.tables.erase(entry) : std::next(entry);
   }
-}
-
-void addFiles(const Job& job, PipelineResult& result) {
-  std::map<std::string, std::string>& files = result.files;
-  if (job.scale) {
-    files["scaled_model.osim"] = writeOsim(job.scaled);
-  }
-  if (job.ik) {
-    files["ik.mot"] = writeMotion(job.ik->coordinates, job.scaled);
-    files["ik_marker_errors.sto"] = writeTable(job.ik->errors);
-    files["ik_marker_distances.sto"] = writeTable(job.ik->marker_errors);
-  }
-  if (job.rra) {
-    files["rra.mot"] = writeMotion(job.motion, job.scaled);
-  }
-  if (job.rra || job.scale) {
-    files["adjusted_model.osim"] = writeOsim(job.adjusted);
-  }
-  if (job.id) {
-    files["inverse_dynamics.sto"] = writeTable(job.id->generalized_forces);
-    files["moments.csv"] = writeCsv(result.tables.at("moments"));
-  }
-  if (job.so) {
-    files["so_activations.sto"] = writeTable(job.so->activations);
-    files["so_forces.sto"] = writeTable(job.so->forces);
-  }
-  if (job.cmc) {
-    files["cmc_activations.sto"] = writeTable(job.cmc->activation);
-    files["cmc_excitations.sto"] = writeTable(job.cmc->excitation);
-    files["cmc_forces.sto"] = writeTable(result.tables.at("forces"));
-    files["cmc_fiber_lengths.sto"] = writeTable(job.cmc->fiber_length);
-    files["cmc_kinematics.mot"] = writeMotion(job.cmc->pose, job.adjusted);
-  }
+  return outcome;
 }
 
 }  // namespace gaitmill

@@ -10,27 +10,26 @@
 #include "core/io/table_reader.h"
 #include "core/io/trc_reader.h"
 #include "core/math/filters.h"
+#include "core/pipeline/checkpoint.h"
 #include "core/pipeline/job.h"
+#include "core/pipeline/marker_set_json.h"
 
 namespace gaitmill {
 
 void Job::warn(const std::string& sentence) {
   warnings.push_back(sentence);
-  if (events->warn) {
+  if (events->warn && !quiet) {
     events->warn(sentence);
   }
 }
 
 namespace {
 
-const InputFile& needFile(const std::optional<InputFile>& file,
-                          const char* role,
-                          const char* reason) {
+void needFile(const std::optional<InputFile>& file, const char* role, const char* reason) {
   require(file.has_value(),
           ErrorCode::kInputMissing,
           std::string("a file is missing: ") + role + ", " + reason,
           {{}, 0, 0, role});
-  return *file;
 }
 
 void needPositive(double value, const char* field, const char* unit) {
@@ -85,8 +84,7 @@ void filterForces(double cutoff, double threshold, GroundReaction& reaction) {
 }
 
 void openForces(Job& job) {
-  const InputFile& file =
-      needFile(job.input->ground_reaction, "grf", "the dynamics stages need the ground reactions");
+  const InputFile& file = *job.input->ground_reaction;
   const TableFile table = readTable(file.bytes, file.name);
   for (const std::string& warning : table.warnings) {
     job.warn(file.name + ": " + warning);
@@ -106,9 +104,7 @@ void openModels(Job& job) {
     job.generic = openModel(*job.input->model, job);
   }
   if (!scales) {
-    job.scaled = openModel(
-        needFile(job.input->model, "model", "a scaled model is needed where scaling is not run"),
-        job);
+    job.scaled = openModel(*job.input->model, job);
     job.adjusted = job.scaled;
   }
 }
@@ -116,16 +112,13 @@ void openModels(Job& job) {
 void openMotion(Job& job) {
   const bool measured = job.settings.runs(Stage::kIk);
   if (measured) {
-    job.markers = openMarkers(
-        needFile(job.input->markers, "markers", "inverse kinematics needs the movement's markers"),
-        job);
+    job.markers = openMarkers(*job.input->markers, job);
     return;
   }
   if (job.settings.last <= Stage::kIk) {
     return;
   }
-  const InputFile& file = needFile(
-      job.input->coordinates, "coordinates", "they are needed where inverse kinematics is not run");
+  const InputFile& file = *job.input->coordinates;
   std::vector<std::string> ignored;
   job.measured_coordinates = toCoordinates(readTable(file.bytes, file.name),
                                            job.scaled.joints.empty() ? job.generic : job.scaled,
@@ -136,37 +129,85 @@ void openMotion(Job& job) {
   job.motion = job.measured_coordinates;
 }
 
+bool needsForces(const PipelineSettings& settings) {
+  return settings.last >= Stage::kRra;
+}
+
 }  // namespace
+
+void checkParts(const TrialInput& input, const PipelineSettings& settings) {
+  if (settings.runs(Stage::kScale)) {
+    needPositive(input.mass, "mass", "kilograms");
+    needFile(input.static_markers, "static", "scaling measures a static trial");
+  } else {
+    needFile(input.model, "model", "a scaled model is needed where scaling is not run");
+  }
+  const bool adjusts = settings.runs(Stage::kRra) || settings.runs(Stage::kScale);
+  if (adjusts && settings.strength_law != StrengthLaw::kNone && settings.last >= Stage::kSo) {
+    needPositive(input.mass, "mass", "kilograms");
+    needPositive(settings.strength_height.value_or(input.height), "height", "metres");
+  }
+  if (settings.runs(Stage::kIk)) {
+    needFile(input.markers, "markers", "inverse kinematics needs the movement's markers");
+  } else if (settings.last > Stage::kIk) {
+    needFile(
+        input.coordinates, "coordinates", "they are needed where inverse kinematics is not run");
+  }
+  if (needsForces(settings)) {
+    needFile(input.ground_reaction, "grf", "the dynamics stages need the ground reactions");
+  }
+}
+
+MarkerSetSpec openMarkerSet(const TrialInput& input,
+                            const PipelineSettings& settings,
+                            const std::string& models_folder) {
+  if (input.marker_set) {
+    return readMarkerSet(*input.marker_set);
+  }
+  const std::string& name = settings.marker_set;
+  // The name is a word, never a path.
+  require(!name.empty() && name.find_first_of("/\\.") == std::string::npos,
+          ErrorCode::kSettingsValue,
+          "'" + name + "' is not the name of a marker set",
+          {{}, 0, 0, "scale.marker_set"});
+  try {
+    return readMarkerSet(
+        {name + ".json", readFile(models_folder + "/marker_sets/" + name + ".json")});
+  } catch (const Error& error) {
+    require(error.code() != ErrorCode::kFileNotFound,
+            ErrorCode::kMarkerSetNotFound,
+            "there is no marker set '" + name + "'",
+            {{}, 0, 0, "scale.marker_set"});
+    throw;
+  }
+}
 
 Job openJob(const TrialInput& input,
             const InputFile& settings,
             const std::string& models_folder,
-            const PipelineEvents& events) {
+            const PipelineEvents& events,
+            bool resumed) {
   Job job;
+  job.quiet = resumed;
   job.input = &input;
   job.events = &events;
   job.models_folder = models_folder;
   job.settings = readSettings(settings);
   job.settings_json = settings.bytes;
+  job.fingerprint = calcFingerprint(input, settings);
+  checkParts(input, job.settings);
   openModels(job);
   if (job.settings.runs(Stage::kScale)) {
-    needPositive(input.mass, "mass", "kilograms");
-    job.static_poses.push_back(openMarkers(
-        needFile(input.static_markers, "static", "scaling measures a static trial"), job));
+    job.static_poses.push_back(openMarkers(*input.static_markers, job));
     if (input.static_markers_2) {
       job.static_poses.push_back(openMarkers(*input.static_markers_2, job));
     }
   }
-  const bool adjusts = job.settings.runs(Stage::kRra) || job.settings.runs(Stage::kScale);
-  if (adjusts && job.settings.strength_law != StrengthLaw::kNone &&
-      job.settings.last >= Stage::kSo) {
-    needPositive(input.mass, "mass", "kilograms");
-    needPositive(job.settings.strength_height.value_or(input.height), "height", "metres");
-  }
   openMotion(job);
-  if (job.settings.last >= Stage::kRra) {
+  if (needsForces(job.settings)) {
     openForces(job);
   }
+  job.quiet = false;
   return job;
 }
 

@@ -10,7 +10,6 @@
 #include "core/cmc/cmc_solver.h"
 #include "core/id/id_solver.h"
 #include "core/ik/ik_solver.h"
-#include "core/io/files.h"
 #include "core/math/natural_spline.h"
 #include "core/math/table_filters.h"
 #include "core/model/external_loads.h"
@@ -18,7 +17,6 @@
 #include "core/model/model.h"
 #include "core/model/reference_motion.h"
 #include "core/pipeline/job.h"
-#include "core/pipeline/marker_set_json.h"
 #include "core/rra/rra_solver.h"
 #include "core/scale/scale_solver.h"
 #include "core/so/so_solver.h"
@@ -52,39 +50,24 @@ void takeWarnings(const char* stage, const std::vector<std::string>& warnings, J
   }
 }
 
-MarkerSetSpec openMarkerSet(const Job& job) {
-  const std::string& name = job.settings.marker_set;
-  // The name is a word, never a path.
-  require(!name.empty() && name.find_first_of("/\\.") == std::string::npos,
-          ErrorCode::kSettingsValue,
-          "'" + name + "' is not the name of a marker set",
-          {{}, 0, 0, "scale.marker_set"});
-  const std::string path = job.models_folder + "/marker_sets/" + name + ".json";
-  return readMarkerSet({name + ".json", readFile(path)});
-}
-
 void runScale(Job& job) {
   ScaleOptions options;
-  options.marker_set = openMarkerSet(job);
+  options.marker_set = openMarkerSet(*job.input, job.settings, job.models_folder);
   options.subject_mass = job.input->mass;
   options.fiber_damping = job.settings.fiber_damping;
   job.scale = ScaleSolver(job.generic, options).solve(job.static_poses);
-  job.scaled = job.scale->model;
-  job.adjusted = job.scaled;
   takeWarnings("scale", job.scale->warnings, job);
 }
 
 void runIk(Job& job) {
   IkOptions options;
-  options.tasks = openMarkerSet(job).ik;
+  options.tasks = openMarkerSet(*job.input, job.settings, job.models_folder).ik;
   options.range = job.settings.ik_range;
   options.warn_rms = job.settings.ik_warn_rms;
   options.warn_max = job.settings.ik_warn_max;
   const Model model(job.scaled);
   IkSolver solver(model, options, job.markers.names);
   job.ik = solver.solve(job.markers, makeProgress(Stage::kIk, job));
-  job.measured_coordinates = job.ik->coordinates;
-  job.motion = job.measured_coordinates;
   takeWarnings("ik", job.ik->warnings, job);
 }
 
@@ -142,8 +125,6 @@ void runRra(Job& job) {
                      job.reaction,
                      makeRraOptions(job),
                      makeProgress(Stage::kRra, job));
-  job.adjusted = job.rra->passes.back().adjusted_model;
-  job.motion = job.rra->passes.back().coordinates;
 }
 
 /// Strength belongs behind residual reduction, which settles the mass (spec/scale.md 5). A model
@@ -277,14 +258,28 @@ bool settlesModel(Stage stage, const PipelineSettings& settings) {
 
 }  // namespace
 
+void takeOver(Stage stage, Job& job) {
+  if (stage == Stage::kScale) {
+    job.scaled = job.scale->model;
+    job.adjusted = job.scaled;
+  } else if (stage == Stage::kIk) {
+    job.measured_coordinates = job.ik->coordinates;
+    job.motion = job.measured_coordinates;
+  } else if (stage == Stage::kRra) {
+    job.adjusted = job.rra->passes.back().adjusted_model;
+    job.motion = job.rra->passes.back().coordinates;
+  }
+  if (settlesModel(stage, job.settings)) {
+    adjustMuscles(job);
+  }
+}
+
 void runStage(Stage stage, Job& job) {
   const double before = readProcessorClock();
   try {
     reportProgress(makeProgress(stage, job), 0.0);
     runStageBody(stage, job);
-    if (settlesModel(stage, job.settings)) {
-      adjustMuscles(job);
-    }
+    takeOver(stage, job);
     reportProgress(makeProgress(stage, job), 1.0);
   } catch (Error& error) {
     Where where;
