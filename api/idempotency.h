@@ -1,13 +1,9 @@
 #pragma once
 
-#include <functional>
-
-#include "api/http.h"
 #include "api/ports.h"
+#include "api/route_tools.h"
 
 namespace gaitmill::api {
-
-using Handler = std::function<HttpReply(HttpRequest&)>;
 
 /// A handler that heeds the header Idempotency-Key: the first answer to a key, an error included,
 /// is the answer to every repetition (with Idempotency-Replayed: true). Answers that say "try
