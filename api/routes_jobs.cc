@@ -29,7 +29,9 @@ HttpReply replyJob(const JobView& job) {
 
 HttpReply submitJob(JobPort& jobs, HttpRequest& request) {
   checkContentDigest(request);
-  const JobView job = jobs.submit(request.identity, parseJobRequest(bodyText(request)));
+  JobRequest wanted = parseJobRequest(bodyText(request));
+  wanted.submission_key = request.header("idempotency-key");
+  const JobView job = jobs.submit(request.identity, wanted);
   return replyCreated(202, "/v1/jobs/" + job.id, renderJob(job));
 }
 

@@ -17,7 +17,9 @@ const std::string& studyId(const HttpRequest& request) {
 
 HttpReply submitStudy(StudyPort& studies, HttpRequest& request) {
   checkContentDigest(request);
-  const StudyView study = studies.submit(request.identity, parseStudyRequest(bodyText(request)));
+  StudyRequest wanted = parseStudyRequest(bodyText(request));
+  wanted.submission_key = request.header("idempotency-key");
+  const StudyView study = studies.submit(request.identity, wanted);
   return replyCreated(202, "/v1/studies/" + study.id, renderStudy(study));
 }
 

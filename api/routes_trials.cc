@@ -78,7 +78,8 @@ bool isDryRun(const HttpRequest& request) {
 
 HttpReply submitTrial(TrialPort& trials, HttpRequest& request) {
   const bool is_dry_run = isDryRun(request);
-  const TrialUpload upload = readUpload(request);
+  TrialUpload upload = readUpload(request);
+  upload.submission_key = request.header("idempotency-key");
   if (is_dry_run) {
     return replyJson(200, renderTrial(trials.validate(request.identity, upload)));
   }
