@@ -1,7 +1,6 @@
 #include "service/product_pipeline.h"
 
 #include "core/io/table_writer.h"
-#include "service/catalog_readers.h"
 #include "service/inspection.h"
 
 namespace gaitmill {
@@ -19,20 +18,15 @@ std::string encodeSto(const TimeSeries& table, api::AngleUnit angles) {
 PipelineFunctions makeProductPipeline(const std::string& models_folder) {
   const Pipeline pipeline(models_folder);
   PipelineFunctions functions;
-  functions.run = [pipeline](const TrialInput& input,
-                             const InputFile& settings,
-                             const PipelineEvents& events,
-                             const std::vector<std::string>& checkpoints) {
-    return pipeline.run(input, settings, events, checkpoints);
-  };
-  functions.check_input = [pipeline](const TrialInput& input, const InputFile& settings) {
-    pipeline.checkInput(input, settings);
+  functions.run =
+      [pipeline](const TrialInput& input, const InputFile& settings, const PipelineEvents& events) {
+        return pipeline.run(input, settings, events);
+      };
+  functions.check_settings = [pipeline](const InputFile& settings) {
+    pipeline.checkSettings(settings);
   };
   functions.inspect = inspectTrial;
-  functions.read_model = summarizeModel;
-  functions.read_marker_set = summarizeMarkerSet;
   functions.encode_sto = encodeSto;
-  functions.default_settings = Pipeline::defaultSettings();
   return functions;
 }
 

@@ -1,5 +1,6 @@
 #include "service/settings_catalog.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <nlohmann/json.hpp>
@@ -32,32 +33,27 @@ std::string joinNames(const std::vector<std::string>& names) {
 
 }  // namespace
 
-SettingsCatalog::SettingsCatalog(const std::string& models_folder) {
-  std::error_code absent;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(models_folder + "/settings", absent)) {
-    const std::filesystem::path& path = entry.path();
-    if (path.extension() == ".json") {
-      documents_[path.stem().string()] = {path.filename().string(), readFile(path.string())};
-    }
-  }
-}
-
 std::vector<std::string> SettingsCatalog::listNames() const {
   std::vector<std::string> names;
-  for (const auto& [name, document] : documents_) {
-    names.push_back(name);
+  std::error_code absent;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_, absent)) {
+    if (entry.path().extension() == ".json") {
+      names.push_back(entry.path().stem().string());
+    }
   }
+  std::sort(names.begin(), names.end());
   return names;
 }
 
+// The name is looked up in the list, never pasted into a path.
 InputFile SettingsCatalog::find(const std::string& name) const {
-  const auto found = documents_.find(name);
-  require(found != documents_.end(),
+  const std::vector<std::string> names = listNames();
+  require(std::find(names.begin(), names.end(), name) != names.end(),
           ErrorCode::kSettingsValue,
-          "there are no settings of this name; there are: " + joinNames(listNames()),
+          "there are no settings of this name; there are: " + joinNames(names),
           {"", 0, 0, "settings"});
-  return found->second;
+  const std::string file = name + ".json";
+  return {file, readFile(folder_ + "/" + file)};
 }
 
 InputFile mergeSettings(const InputFile& base, const InputFile& changes) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -8,10 +7,10 @@
 
 namespace gaitmill {
 
-/// The settings documents that ship with the product (<models>/settings/<name>.json), read once.
+/// The settings documents that ship with the product: <models>/settings/<name>.json.
 class SettingsCatalog {
  public:
-  explicit SettingsCatalog(const std::string& models_folder);
+  explicit SettingsCatalog(const std::string& models_folder) : folder_(models_folder + "/settings") {}
 
   /// @throws Error kSettingsValue naming the settings there are
   InputFile find(const std::string& name) const;
@@ -19,7 +18,7 @@ class SettingsCatalog {
   std::vector<std::string> listNames() const;
 
  private:
-  std::map<std::string, InputFile> documents_;  ///< by name
+  std::string folder_;
 };
 
 /// `base` with the fields of `changes` put over it, object by object (RFC 7386). Both are JSON

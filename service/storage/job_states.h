@@ -9,8 +9,7 @@ namespace gaitmill {
 ///   queued  -> running     a worker claims it
 ///   queued  -> cancelled   the user, before it began
 ///   running -> succeeded, failed, cancelled
-///
-/// A job whose worker stops or dies stays running until somebody claims it again.
+///   running -> queued      the service stops or has died
 bool isAllowedChange(api::JobState from, api::JobState to);
 
 }  // namespace gaitmill

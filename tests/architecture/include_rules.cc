@@ -47,13 +47,15 @@ const std::map<std::string, std::set<std::string>>& allowedRooms() {
         "core/sample",
         "core/render"}},
       {"api", {"core/base", "core/data"}},
-      // A program of the build, not of the product.
-      {"api/embed", {}},
       {"service/storage", {"api", "core/base", "core/data"}},
+      {"service/process", {"api", "core/base", "core/data", "core/pipeline"}},
+      {"service/observe", {"core/base"}},
       // The command line reads and shows model documents and writes the sample trial by itself.
       {"service",
        {"api",
         "service/storage",
+        "service/process",
+        "service/observe",
         "core/base",
         "core/data",
         "core/io",
@@ -77,11 +79,11 @@ struct HeaderRule {
 const std::vector<HeaderRule>& headerRules() {
   static const std::vector<HeaderRule> rules = {
       {std::regex("fstream|filesystem|cstdio|stdio\\.h"),
-       {"core/io", "service", "service/storage", "api/embed"},
+       {"core/io", "service", "service/storage", "service/observe"},
        Place::kAnywhere,
        "files are opened by core/io and the service only"},
       {std::regex("iostream|print|spdlog/.*"),
-       {"service", "service/storage"},
+       {"service", "service/storage", "service/observe"},
        Place::kAnywhere,
        "only the service prints and logs"},
       {std::regex("(Simbody|SimTKcommon|SimTKmath)\\.h|(simbody|SimTKcommon|simmath)/.*"),
@@ -100,7 +102,7 @@ const std::vector<HeaderRule>& headerRules() {
       {std::regex("(GL|EGL)/.*"), {"core/render"}, Place::kAnywhere, "OpenGL stays in core/render"},
       {std::regex("pugi.*"), {"core/io"}, Place::kAnywhere, "XML is read in core/io only"},
       {std::regex("nlohmann/.*"),
-       {"core/pipeline", "api", "api/embed", "service", "service/storage"},
+       {"core/pipeline", "api", "service", "service/storage", "service/observe"},
        Place::kAnywhere,
        "JSON is known to core/pipeline, api and service only"},
       {std::regex("CLI/.*"), {"service"}, Place::kAnywhere, "the command line is the service's"},
@@ -130,7 +132,7 @@ std::string checkHeader(const std::string& room, const std::string& file, const 
 }  // namespace
 
 std::string findRoom(const std::string& path) {
-  static const std::regex room("(core/[a-z0-9_]+|service/storage|service|api/embed|api)/.*");
+  static const std::regex room("(core/[a-z0-9_]+|service/[a-z0-9_]+|service|api)/.*");
   std::smatch match;
   return std::regex_match(path, match, room) ? match[1].str() : "";
 }
