@@ -5,7 +5,7 @@
 
 #include "core/base/error.h"
 #include "service/command_line.h"
-#include "service/log.h"
+#include "service/observe/log.h"
 #include "service/model_command.h"
 #include "service/models_folder.h"
 #include "service/product_pipeline.h"

@@ -4,7 +4,7 @@
 #include <exception>
 #include <iostream>
 
-#include "service/log.h"
+#include "service/observe/log.h"
 #include "service/service.h"
 #include "tests/service/fake_pipeline.h"
 

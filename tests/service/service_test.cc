@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "service/log.h"
+#include "service/observe/log.h"
 #include "tests/http/http_client.h"
 #include "tests/service/child_process.h"
 #include "tests/service/fake_pipeline.h"

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "service/log.h"
+#include "service/observe/log.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gaitmill {
