@@ -31,7 +31,6 @@ struct Job {
   const TrialInput* input = nullptr;
   const PipelineEvents* events = nullptr;
   PipelineSettings settings;
-  std::string settings_json;  ///< the document that the settings were read from
   std::string models_folder;
   std::uint64_t fingerprint = 0;  ///< of input and settings; checkpoints carry it
   /// What an earlier run has said already is not said again.
@@ -106,7 +105,7 @@ std::optional<std::string> makeAcceptanceText(const Job& job, const JobQuality& 
 /// Tables and files that a stage adds or replaces, once it has run; without checkpoint and summary.
 StageOutcome makeOutcome(Stage stage, const Job& job);
 
-/// summary.json: stages with processor seconds and counts, quality, settings as given, warnings.
+/// summary.json: stages with processor seconds and counts, quality, every setting used, warnings.
 std::string makeSummary(const Job& job, const JobQuality& quality);
 
 }  // namespace gaitmill

@@ -193,7 +193,6 @@ Job openJob(const TrialInput& input,
   job.events = &events;
   job.models_folder = models_folder;
   job.settings = readSettings(settings);
-  job.settings_json = settings.bytes;
   job.fingerprint = calcFingerprint(input, settings);
   checkParts(input, job.settings);
   openModels(job);

@@ -184,7 +184,7 @@ std::string makeSummary(const Job& job, const JobQuality& quality) {
   if (const std::optional<GaitCycle> cycle = findGaitCycle(job)) {
     summary["gait_cycle_s"] = {cycle->start, cycle->end};
   }
-  summary["settings_used"] = Json::parse(job.settings_json);
+  summary["settings_used"] = Json::parse(writeSettings(job.settings));
   summary["warnings"] = job.warnings;
   return summary.dump(2) + "\n";
 }

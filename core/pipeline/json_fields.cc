@@ -73,6 +73,11 @@ bool JsonFields::has(const std::string& name) {
   return !raw(name).is_null();
 }
 
+bool JsonFields::contains(const std::string& name) {
+  known_.push_back(name);
+  return value_->contains(name);
+}
+
 const Json& JsonFields::need(const std::string& name) {
   const Json& value = raw(name);
   require(!value.is_null(),

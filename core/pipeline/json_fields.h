@@ -23,7 +23,10 @@ class JsonFields {
  public:
   JsonFields(const nlohmann::json& value, std::string path, std::string file);
 
+  /// Present and not null.
   bool has(const std::string& name);
+  /// Present, be it null.
+  bool contains(const std::string& name);
 
   double number(const std::string& name);
   double number(const std::string& name, double absent);
@@ -44,6 +47,7 @@ class JsonFields {
   std::vector<std::string> names() const;
   /// Path of one field, for messages: "scale.manual[2].factors".
   std::string pathOf(const std::string& name) const;
+  const std::string& file() const { return file_; }
   /// Throws Error kSettingsValue about one field.
   [[noreturn]] void refuse(const std::string& name, const std::string& message) const;
 

@@ -15,6 +15,10 @@ void Pipeline::checkSettings(const InputFile& settings_json) const {
   readSettings(settings_json);
 }
 
+std::string Pipeline::defaultSettings() {
+  return writeSettings(readSettings({"", "{}"}));
+}
+
 void Pipeline::checkInput(const TrialInput& input, const InputFile& settings_json) const {
   const PipelineSettings settings = readSettings(settings_json);
   checkParts(input, settings);

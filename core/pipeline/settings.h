@@ -42,6 +42,13 @@ struct ActuatorSetSettings {
   double control_limit = 1000;
 };
 
+/// Actuators of residual reduction: light at the pelvis, so that the joints do the work.
+ActuatorSetSettings makeTrackingActuators();
+/// Residuals and reserves of static optimization and computed muscle control.
+ActuatorSetSettings makeReserveActuators();
+/// How closely residual reduction follows each coordinate.
+CoordinateValues makeTrackingWeights();
+
 /// How force files are read.
 struct ForceSettings {
   GrfOptions reading;
@@ -50,9 +57,9 @@ struct ForceSettings {
 };
 
 struct RraSettings {
-  std::optional<double> lowpass_cutoff;  ///< [Hz] of the coordinates; none = unfiltered
+  std::optional<double> lowpass_cutoff = 6;  ///< [Hz] of the coordinates; none = unfiltered
   TimeRange range;
-  ActuatorSetSettings actuators;
+  ActuatorSetSettings actuators = makeTrackingActuators();
   std::string adjusted_body = "torso";
   InertiaScaling inertia = InertiaScaling::kWithMass;
   /// What a pass tracks with. Passes beyond the list repeat its last entry.
@@ -60,13 +67,14 @@ struct RraSettings {
     CoordinateValues weights;
     std::optional<TimeRange> range;  ///< replaces the common one
   };
-  std::vector<Pass> passes;
-  int max_passes = 3;
-  double mass_tolerance = 0.01;     ///< [kg] stop when a pass asks for less
+  std::vector<Pass> passes = {{makeTrackingWeights(), {}}};
+  int max_passes = 3;               ///< where passes are listed: as many, unless stated
+  double mass_tolerance = 0.05;     ///< [kg] stop when a pass asks for less
   double center_tolerance = 0.001;  ///< [m]
 };
 
-/// A settings document (models/settings/*.json) as values. Every field has a default.
+/// A settings document (models/settings/*.json) as values. Every field has a default, and the
+/// defaults together run any trial with the model's own marker names.
 struct PipelineSettings {
   std::string name;
   std::string description;
@@ -91,19 +99,19 @@ struct PipelineSettings {
   RraSettings rra;
 
   StrengthLaw strength_law = StrengthLaw::kAsIntended;
-  std::optional<double> strength_height;           ///< [m] replaces the subject's height in the law
-  std::optional<double> max_contraction_velocity;  ///< after residual reduction [l0M / s]
+  std::optional<double> strength_height;  ///< [m] replaces the subject's height in the law
+  std::optional<double> max_contraction_velocity = 15;  ///< after residual reduction [l0M / s]
 
   IdOptions id;
   int id_pass = 0;  ///< residual reduction pass whose motion is analysed, from 1; 0 = the last
 
   SoOptions so;
-  ActuatorSetSettings so_actuators;
+  ActuatorSetSettings so_actuators = makeReserveActuators();
   double so_interval = 0.010;  ///< [s] between rows
 
   CmcOptions cmc;
   TimeRange cmc_range;
-  ActuatorSetSettings cmc_actuators;
+  ActuatorSetSettings cmc_actuators = makeReserveActuators();
 
   bool runs(Stage stage) const;
 };
@@ -111,6 +119,9 @@ struct PipelineSettings {
 /// Reads a settings document. @throws Error kSettingsJson with line and column;
 ///   kSettingsUnknownField naming the nearest field; kSettingsValue, kInputMissing naming the field
 PipelineSettings readSettings(const InputFile& document);
+
+/// The document that says everything: every field with its value, null where there is none.
+std::string writeSettings(PipelineSettings settings);
 
 /// Actuators of a set on a model. Residuals are FX FY FZ MX MY MZ; coordinate actuators are named
 /// after their coordinate plus the suffix. @throws Error kInputCoordinates, kModelReference

@@ -1,8 +1,11 @@
 #include "core/pipeline/settings.h"
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
 #include "core/io/files.h"
@@ -66,6 +69,75 @@ TEST(Settings, AnEmptyDocumentHasEveryDefault) {
   EXPECT_EQ(settings.cmc.window, 0.010);
   EXPECT_TRUE(settings.runs(Stage::kScale));
   EXPECT_TRUE(settings.runs(Stage::kCmc));
+}
+
+using Json = nlohmann::ordered_json;
+
+TEST(DefaultSettings, AreWhatAnEmptyDocumentMeans) {
+  const std::string defaults = Pipeline::defaultSettings();
+  EXPECT_EQ(writeSettings(readText(defaults)), defaults);
+  EXPECT_EQ(writeSettings(readText("{}")), defaults);
+  Json shipped = Json::parse(writeSettings(readText(readFile("models/settings/default.json"))));
+  shipped["name"] = "";
+  shipped["description"] = "";
+  EXPECT_EQ(shipped, Json::parse(defaults));
+}
+
+TEST(Settings, EveryDocumentIsReadBackAsItIsWritten) {
+  for (const std::string name : {"default", "paper_walk", "paper_run"}) {
+    const std::string written =
+        writeSettings(readText(readFile("models/settings/" + name + ".json")));
+    EXPECT_EQ(writeSettings(readText(written)), written) << name;
+  }
+}
+
+/// Paths of all objects in a document whose fields have fixed names.
+std::vector<Json::json_pointer> listObjects(const Json& document) {
+  std::vector<Json::json_pointer> paths;
+  const std::function<void(const Json&, const Json::json_pointer&)> visit =
+      [&](const Json& value, const Json::json_pointer& path) {
+        const std::string name = path.empty() ? "" : path.back();
+        if (!value.is_structured() || name == "coordinates" || name == "weights") {
+          return;
+        }
+        if (value.is_object()) {
+          paths.push_back(path);
+        }
+        for (const auto& [key, inner] : value.items()) {
+          visit(inner, value.is_array() ? path / std::stoul(key) : path / key);
+        }
+      };
+  visit(document, Json::json_pointer());
+  return paths;
+}
+
+// At every level of the paper's documents, which hold every kind of entry.
+TEST(Settings, AMisspeltFieldIsRefusedWithTheNearestName) {
+  for (const std::string name : {"paper_walk", "paper_run"}) {
+    const Json document =
+        Json::parse(writeSettings(readText(readFile("models/settings/" + name + ".json"))));
+    for (const Json::json_pointer& path : listObjects(document)) {
+      for (const auto& [field, value] : document[path].items()) {
+        Json spoilt = document;
+        spoilt[path][field + "q"] = value;
+        try {
+          readText(spoilt.dump());
+          ADD_FAILURE() << path << "/" << field << "q was accepted";
+        } catch (const Error& error) {
+          EXPECT_EQ(error.code(), ErrorCode::kSettingsUnknownField);
+          EXPECT_NE(error.message().find("'" + field + "'"), std::string::npos) << error.what();
+        }
+      }
+    }
+  }
+}
+
+TEST(Settings, NullEmptiesWhatMayBeEmpty) {
+  const PipelineSettings settings =
+      readText(R"({"rra": {"lowpass_cutoff_hz": null, "actuators": {"residuals": null}}})");
+  EXPECT_FALSE(settings.rra.lowpass_cutoff.has_value());
+  EXPECT_FALSE(settings.rra.actuators.residuals.has_value());
+  EXPECT_EQ(settings.rra.actuators.coordinates.at("hip_flexion"), 1000);
 }
 
 TEST(Settings, StagesCanStartLateStopEarlyAndBeSkipped) {
