@@ -12,8 +12,6 @@ namespace gaitmill::api {
 
 namespace {
 
-constexpr const char* kRetryAfter = "1";  // [s]
-
 Where atHeader(const std::string& name) {
   Where where;
   where.field = name;
@@ -168,21 +166,12 @@ std::string Gate::listMethods(const std::string& path) const {
   return list;
 }
 
-HttpReply Gate::refuse(const Error& error, const RequestHead& head) const {
-  HttpReply reply = replyError(error);
-  switch (reply.status) {
-    case 401:
-      reply.headers["WWW-Authenticate"] = "Bearer realm=\"gaitmill\"";
-      break;
-    case 405:
-      reply.headers["Allow"] = listMethods(head.path);
-      break;
-    case 429:
-    case 503:
-      reply.headers["Retry-After"] = kRetryAfter;
-      break;
-    default:
-      break;
+HttpReply Gate::refuse(const Error& error,
+                       const RequestHead& head,
+                       const std::string& request_id) const {
+  HttpReply reply = replyError(error, request_id);
+  if (reply.status == 405) {
+    reply.headers["Allow"] = listMethods(head.path);
   }
   return reply;
 }

@@ -28,7 +28,9 @@ class Gate {
   /// @throws Error with the code of the refusal
   Admission admit(const RequestHead& head) const;
   /// The reply to a refusal, with the headers that its status asks for.
-  HttpReply refuse(const Error& error, const RequestHead& head) const;
+  HttpReply refuse(const Error& error,
+                   const RequestHead& head,
+                   const std::string& request_id) const;
   /// The reply to OPTIONS.
   HttpReply describe(const RequestHead& head) const;
 

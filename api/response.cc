@@ -321,8 +321,8 @@ void setContent(HttpReply reply,
   response.source = response.remaining > 0 ? std::move(reply.source) : nullptr;
 }
 
-HttpReply replyRangeError(const Error& error, std::uint64_t size) {
-  HttpReply reply = replyError(error);
+HttpReply replyRangeError(const Error& error, std::uint64_t size, const std::string& request_id) {
+  HttpReply reply = replyError(error, request_id);
   reply.headers["Content-Range"] = "bytes */" + std::to_string(size);
   return reply;
 }
@@ -345,7 +345,7 @@ std::optional<ByteRange> negotiate(HttpReply& reply, const ReplyConditions& cond
   try {
     range = findRange(reply, conditions);
   } catch (const Error& error) {
-    reply = replyRangeError(error, sizeOf(reply));
+    reply = replyRangeError(error, sizeOf(reply), conditions.request_id);
     return std::nullopt;
   }
   if (range) {

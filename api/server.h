@@ -66,9 +66,10 @@ struct ServerOptions {
 
   std::chrono::milliseconds keep_alive{60'000};       ///< idle time of a connection
   std::chrono::milliseconds header_deadline{10'000};  ///< from first byte to last header
-  std::chrono::milliseconds body_deadline{20'000};    ///< for a body, plus its time at lowest_rate
-  std::chrono::milliseconds reply_deadline{20'000};   ///< for a reply, plus the same
-  std::uint64_t lowest_rate = 50'000;                 ///< [bytes/s] averaged from the beginning
+  std::chrono::milliseconds body_deadline{20'000};    ///< within each such time a body must come to
+                                                      ///< its end or move on at lowest_rate
+  std::chrono::milliseconds reply_deadline{20'000};   ///< the same for the client taking a reply
+  std::uint64_t lowest_rate = 16'384;                 ///< [bytes/s]
   std::chrono::milliseconds max_park{300'000};        ///< a long poll's limit is cut to this
   std::chrono::milliseconds stream_pulse{15'000};     ///< comment line on a silent event stream
   std::chrono::milliseconds ask_again{2'000};   ///< longest time a parked request or event stream
@@ -91,6 +92,8 @@ struct ServerLoad {
   std::size_t parked = 0;
   std::size_t queued = 0;  ///< requests waiting for a thread
 };
+
+class Reactor;
 
 /// The routes behind a listening socket. What is refused (unknown path, length, encoding, media
 /// type, key) is refused before the body is read; a connection with an unread body is then closed,
@@ -116,8 +119,7 @@ class Server {
   ServerLoad load() const;
 
  private:
-  class Transport;
-  std::unique_ptr<Transport> transport_;
+  std::unique_ptr<Reactor> reactor_;
 };
 
 }  // namespace gaitmill::api
