@@ -1,8 +1,118 @@
 #include "api/errors.h"
 
-#include "api/dto/error_body.h"
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "api/dto/object_reader.h"
 
 namespace gaitmill::api {
+
+namespace {
+
+using nlohmann::json;
+
+// Time after which a refused request may be sent again, as Retry-After.
+constexpr const char* kRetrySeconds = "2";
+
+// What went wrong on this machine is for its operator; what went wrong in a job is for its owner.
+bool isOurFault(ErrorCode code) {
+  static const std::vector<ErrorCode> of_jobs = {ErrorCode::kJobAbandoned,
+                                                 ErrorCode::kJobCrashed,
+                                                 ErrorCode::kJobTimeout,
+                                                 ErrorCode::kJobMemory};
+  return httpStatus(code) == 500 &&
+         std::find(of_jobs.begin(), of_jobs.end(), code) == of_jobs.end();
+}
+
+// Where to look when whoever found the error did not say: the part of the request that its code is
+// about, else the group of the code ("trc", "settings").
+std::string findUsualPlace(ErrorCode code) {
+  static const std::vector<std::pair<ErrorCode, const char*>> places = {
+      {ErrorCode::kRequestMalformed, "request"},
+      {ErrorCode::kRequestField, "request"},
+      {ErrorCode::kRequestNotFound, "path"},
+      {ErrorCode::kRequestMethod, "method"},
+      {ErrorCode::kRequestNotAcceptable, "Accept"},
+      {ErrorCode::kRequestTooLarge, "Content-Length"},
+      {ErrorCode::kRequestLengthRequired, "Content-Length"},
+      {ErrorCode::kRequestUriTooLong, "path"},
+      {ErrorCode::kRequestMediaType, "Content-Type"},
+      {ErrorCode::kRequestDigest, "Content-Digest"},
+      {ErrorCode::kRequestRange, "Range"},
+      {ErrorCode::kRequestBusy, "service"},
+      {ErrorCode::kRequestRate, "service"},
+      {ErrorCode::kRequestTimeout, "body"},
+      {ErrorCode::kUnauthorized, "Authorization"},
+      {ErrorCode::kForbidden, "Authorization"},
+      {ErrorCode::kIdempotencyMismatch, "Idempotency-Key"},
+      {ErrorCode::kIdempotencyBusy, "Idempotency-Key"},
+      {ErrorCode::kTrialNotFound, "id"},
+      {ErrorCode::kJobNotFound, "id"},
+      {ErrorCode::kStudyNotFound, "id"},
+      {ErrorCode::kModelNotFound, "id"},
+      {ErrorCode::kMarkerSetNotFound, "id"},
+      {ErrorCode::kSettingsNotFound, "name"},
+      {ErrorCode::kKeyNotFound, "id"},
+      {ErrorCode::kResultNotFound, "name"},
+      {ErrorCode::kResultNotReady, "name"},
+      {ErrorCode::kJobState, "state"},
+  };
+  const auto found = std::find_if(
+      places.begin(), places.end(), [&](const auto& place) { return place.first == code; });
+  const std::string_view name = codeName(code);
+  return found == places.end() ? std::string(name.substr(0, name.find('.'))) : found->second;
+}
+
+void putText(json& object, const char* key, const std::string& text) {
+  if (!text.empty()) {
+    object[key] = text;
+  }
+}
+
+json renderWhere(const Where& where, ErrorCode code) {
+  if (isOurFault(code)) {
+    return {{"field", "service"}};
+  }
+  json object = json::object();
+  putText(object, "file", where.file);
+  if (where.line > 0) {
+    object["line"] = where.line;
+  }
+  if (where.column > 0) {
+    object["column"] = where.column;
+  }
+  putText(object, "field", where.field);
+  putText(object, "stage", where.stage);
+  if (std::isfinite(where.time)) {
+    object["time_s"] = where.time;
+  }
+  putText(object, "marker", where.marker);
+  putText(object, "muscle", where.muscle);
+  putText(object, "coordinate", where.coordinate);
+  return object.empty() ? json{{"field", findUsualPlace(code)}} : object;
+}
+
+json makeProblem(const Error& error) {
+  const ErrorCode code = error.code();
+  const bool is_ours = isOurFault(code);
+  return {
+      {"type", "/problems/" + std::string(codeName(code))},
+      {"title", problemTitle(code)},
+      {"status", httpStatus(code)},
+      {"detail", is_ours ? "the service failed here; its log has the details" : error.message()},
+      {"code", codeName(code)},
+      {"where", renderWhere(error.where(), code)},
+      {"fix", codeFix(code)},
+      {"context", is_ours ? std::vector<std::string>{} : error.context()}};
+}
+
+}  // namespace
 
 // 422 = the request is well formed but its content is not: everything a parser or a stage finds in
 // what was uploaded. No `default`, so that the compiler asks for the status of a new code.
@@ -123,11 +233,71 @@ int httpStatus(ErrorCode code) {
   return 500;
 }
 
-HttpReply replyError(const Error& error) {
+std::string problemTitle(ErrorCode code) {
+  static const std::vector<std::string> abbreviations = {"trc", "grf", "json", "xml", "uri"};
+  std::string title;
+  std::string word;
+  const auto end_word = [&] {
+    if (std::find(abbreviations.begin(), abbreviations.end(), word) != abbreviations.end()) {
+      std::transform(word.begin(), word.end(), word.begin(), [](unsigned char letter) {
+        return static_cast<char>(std::toupper(letter));
+      });
+    }
+    title += (title.empty() ? "" : " ") + std::exchange(word, "");
+  };
+  for (const char letter : codeName(code)) {
+    if (letter == '.' || letter == '_') {
+      end_word();
+    } else {
+      word += letter;
+    }
+  }
+  end_word();
+  title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(title.front())));
+  return title;
+}
+
+std::string renderProblem(const Error& error, const std::string& request_id) {
+  json problem = makeProblem(error);
+  if (!request_id.empty()) {
+    problem["instance"] = "urn:gaitmill:request:" + request_id;
+  }
+  return dumpJson(problem);
+}
+
+std::string renderProblemObject(const Error& error) {
+  return dumpJson(makeProblem(error));
+}
+
+HttpReply replyError(const Error& error, const std::string& request_id) {
   HttpReply reply;
   reply.status = httpStatus(error.code());
-  reply.body = renderError(error);
+  reply.content_type = "application/problem+json";
+  reply.body = renderProblem(error, request_id);
+  if (reply.status == 401) {
+    reply.headers["WWW-Authenticate"] = "Bearer realm=\"gaitmill\"";
+  }
+  if (reply.status == 403) {
+    reply.headers["WWW-Authenticate"] = "Bearer realm=\"gaitmill\", error=\"insufficient_scope\"";
+  }
+  if (reply.status == 429 || reply.status == 503 || reply.status == 507 ||
+      error.code() == ErrorCode::kIdempotencyBusy) {
+    reply.headers["Retry-After"] = kRetrySeconds;
+  }
   return reply;
+}
+
+std::string renderProblemType(const std::string& code) {
+  for (const ErrorCode known : allErrorCodes()) {
+    if (codeName(known) == code) {
+      return dumpJson({{"type", "/problems/" + code},
+                       {"title", problemTitle(known)},
+                       {"status", httpStatus(known)},
+                       {"code", code},
+                       {"fix", codeFix(known)}});
+    }
+  }
+  throw Error(ErrorCode::kRequestNotFound, "no problem has this code", {"", 0, 0, "code"});
 }
 
 }  // namespace gaitmill::api

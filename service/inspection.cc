@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/io/files.h"
 #include "core/io/grf_reader.h"
 #include "core/io/osim_reader.h"
 #include "core/io/table_reader.h"
@@ -28,7 +29,17 @@ void putTimes(const std::vector<double>& time, UnderstoodFile& understood) {
   }
 }
 
-void inspectMarkers(const UploadedFile& file, UnderstoodFile& understood, Warnings& warnings) {
+// A file as the parsers take it.
+struct OpenedFile {
+  std::string name;
+  std::string bytes;
+};
+
+OpenedFile open(const UploadedFile& file) {
+  return {file.name, api::readAll(*file.bytes, kMaximumFileSize)};
+}
+
+void inspectMarkers(const OpenedFile& file, UnderstoodFile& understood, Warnings& warnings) {
   const TrcFile trc = readTrc(file.bytes, file.name);
   understood.format = "trc";
   putTimes(trc.markers.time, understood);
@@ -40,7 +51,7 @@ void inspectMarkers(const UploadedFile& file, UnderstoodFile& understood, Warnin
   warnings = trc.warnings;
 }
 
-void inspectTable(const UploadedFile& file, UnderstoodFile& understood, Warnings& warnings) {
+void inspectTable(const OpenedFile& file, UnderstoodFile& understood, Warnings& warnings) {
   const TableFile table = readTable(file.bytes, file.name);
   understood.format = "table";
   putTimes(table.table.time, understood);
@@ -51,9 +62,7 @@ void inspectTable(const UploadedFile& file, UnderstoodFile& understood, Warnings
 
 // Which foot a numbered plate belongs to is settled by the job's settings, so only the columns are
 // looked at here.
-void inspectGroundReaction(const UploadedFile& file,
-                           UnderstoodFile& understood,
-                           Warnings& warnings) {
+void inspectGroundReaction(const OpenedFile& file, UnderstoodFile& understood, Warnings& warnings) {
   inspectTable(file, understood, warnings);
   understood.labels_kind = "forces";
   understood.labels = findForceFamilies(understood.labels);
@@ -63,7 +72,7 @@ void inspectGroundReaction(const UploadedFile& file,
           {file.name, 0, 0, ""});
 }
 
-void inspectModel(const UploadedFile& file, UnderstoodFile& understood, Warnings& warnings) {
+void inspectModel(const OpenedFile& file, UnderstoodFile& understood, Warnings& warnings) {
   const ModelSpec model = readOsim(file.bytes, file.name, &warnings);
   understood.format = "osim";
   understood.labels_kind = "muscles";
@@ -72,7 +81,7 @@ void inspectModel(const UploadedFile& file, UnderstoodFile& understood, Warnings
   }
 }
 
-using Inspector = std::function<void(const UploadedFile&, UnderstoodFile&, Warnings&)>;
+using Inspector = std::function<void(const OpenedFile&, UnderstoodFile&, Warnings&)>;
 
 const Inspector& findInspector(const std::string& part) {
   static const std::map<std::string, Inspector> inspectors = {{"markers", inspectMarkers},
@@ -100,7 +109,7 @@ api::TrialView inspectTrial(const api::TrialUpload& upload) {
     understood.name = file.name;
     Warnings warnings;
     try {
-      findInspector(part)(file, understood, warnings);
+      findInspector(part)(open(file), understood, warnings);
     } catch (Error& error) {
       error.addContext("reading the part '" + part + "'");
       throw;

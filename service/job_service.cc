@@ -2,50 +2,56 @@
 
 #include <utility>
 
-#include "core/base/error.h"
-
 namespace gaitmill {
 
-JobService::JobService(TrialStore& trials,
-                       JobStore& jobs,
-                       Workers& workers,
-                       SettingsCatalog settings,
-                       SettingsCheck check_settings)
-    : trials_(trials),
-      jobs_(jobs),
-      workers_(workers),
-      settings_(std::move(settings)),
-      check_settings_(std::move(check_settings)) {}
+JobService::JobService(Stores& stores,
+                       JobComposer& composer,
+                       JobEstimates& estimates,
+                       WorkerSignals workers,
+                       const Quota& quota)
+    : stores_(stores),
+      composer_(composer),
+      estimates_(estimates),
+      workers_(std::move(workers)),
+      quota_(quota) {}
 
-// A trial's options hold over the settings by name, and under a document that the job brings.
-InputFile JobService::composeSettings(const api::JobRequest& request) {
-  const api::TrialSubject subject = trials_.findSubject(request.trial_id);
-  InputFile options{"trial.options", subject.options};
-  if (subject.marker_set) {
-    options = mergeSettings(makeMarkerSetSettings(*subject.marker_set), options);
-  }
-  return request.settings_name.empty()
-             ? mergeSettings(options, {"settings", request.settings_json})
-             : mergeSettings(settings_.find(request.settings_name), options);
-}
-
-api::JobView JobService::submit(const api::JobRequest& request) {
-  const InputFile settings = composeSettings(request);
-  check_settings_(settings);
-  const std::string id = jobs_.submit(request.trial_id, request.settings_name, settings.bytes);
+api::JobView JobService::submit(const api::Identity& who, const api::JobRequest& request) {
+  const std::string id = stores_.jobs.submit(composer_.compose(who, request), quota_);
   workers_.wake();
-  return jobs_.find(id);
+  return find(who, id);
 }
 
-api::JobView JobService::find(const std::string& job_id) {
-  return jobs_.find(job_id);
+api::Page<api::JobView> JobService::list(const api::Identity& who,
+                                         const api::ListFilter& filter,
+                                         const api::PageRequest& page) {
+  api::Page<api::JobView> jobs = stores_.jobs.list(who.tenant, filter, page);
+  for (api::JobView& job : jobs.items) {
+    job.seconds_left = estimates_.calcSecondsLeft(job);
+  }
+  return jobs;
+}
+
+api::JobView JobService::find(const api::Identity& who, const std::string& job_id) {
+  api::JobView job = stores_.jobs.find(who.tenant, job_id);
+  job.seconds_left = estimates_.calcSecondsLeft(job);
+  return job;
 }
 
 // Stored first, so that a restart in between does not forget it; then the worker is told.
-api::JobView JobService::cancel(const std::string& job_id) {
-  jobs_.requestCancel(job_id);
+api::JobView JobService::cancel(const api::Identity& who, const std::string& job_id) {
+  stores_.jobs.requestCancel(who.tenant, job_id);
   workers_.cancel(job_id);
-  return jobs_.find(job_id);
+  return find(who, job_id);
+}
+
+void JobService::remove(const api::Identity& who, const std::string& job_id) {
+  stores_.jobs.remove(who.tenant, job_id);
+}
+
+std::vector<api::JobEvent> JobService::listEvents(const api::Identity& who,
+                                                  const std::string& job_id,
+                                                  std::int64_t after) {
+  return stores_.jobs.listEvents(who.tenant, job_id, after);
 }
 
 }  // namespace gaitmill

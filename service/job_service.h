@@ -1,38 +1,51 @@
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "api/ports.h"
-#include "service/pipeline_functions.h"
-#include "service/settings_catalog.h"
-#include "service/storage/job_store.h"
-#include "service/storage/trial_store.h"
-#include "service/workers.h"
+#include "service/job_composer.h"
+#include "service/job_estimates.h"
+#include "service/stores.h"
 
 namespace gaitmill {
 
-/// Jobs behind the API. The settings of a job are fixed when it is submitted: the named or given
-/// document over the trial's own options, checked before it is stored.
+/// What the workers of this process are told, beside what is stored. Quick, from any thread.
+struct WorkerSignals {
+  std::function<void()> wake = [] {
+  };  ///< a job has been queued
+  std::function<void(const std::string& job_id)> cancel = [](const std::string&) {
+  };
+};
+
+/// Jobs behind the API. Everything about a job is fixed and checked when it is submitted.
 class JobService : public api::JobPort {
  public:
-  JobService(TrialStore& trials,
-             JobStore& jobs,
-             Workers& workers,
-             SettingsCatalog settings,
-             SettingsCheck check_settings);
+  /// @param quota  of each API key
+  JobService(Stores& stores,
+             JobComposer& composer,
+             JobEstimates& estimates,
+             WorkerSignals workers,
+             const Quota& quota);
 
-  api::JobView submit(const api::JobRequest& request) override;
-  api::JobView find(const std::string& job_id) override;
-  api::JobView cancel(const std::string& job_id) override;
+  api::JobView submit(const api::Identity& who, const api::JobRequest& request) override;
+  api::Page<api::JobView> list(const api::Identity& who,
+                               const api::ListFilter& filter,
+                               const api::PageRequest& page) override;
+  api::JobView find(const api::Identity& who, const std::string& job_id) override;
+  api::JobView cancel(const api::Identity& who, const std::string& job_id) override;
+  void remove(const api::Identity& who, const std::string& job_id) override;
+  std::vector<api::JobEvent> listEvents(const api::Identity& who,
+                                        const std::string& job_id,
+                                        std::int64_t after) override;
 
  private:
-  InputFile composeSettings(const api::JobRequest& request);
-
-  TrialStore& trials_;
-  JobStore& jobs_;
-  Workers& workers_;
-  SettingsCatalog settings_;
-  SettingsCheck check_settings_;
+  Stores& stores_;
+  JobComposer& composer_;
+  JobEstimates& estimates_;
+  WorkerSignals workers_;
+  Quota quota_;
 };
 
 }  // namespace gaitmill

@@ -1,6 +1,7 @@
 #include "service/product_pipeline.h"
 
 #include "core/io/table_writer.h"
+#include "service/catalog_readers.h"
 #include "service/inspection.h"
 
 namespace gaitmill {
@@ -18,15 +19,20 @@ std::string encodeSto(const TimeSeries& table, api::AngleUnit angles) {
 PipelineFunctions makeProductPipeline(const std::string& models_folder) {
   const Pipeline pipeline(models_folder);
   PipelineFunctions functions;
-  functions.run =
-      [pipeline](const TrialInput& input, const InputFile& settings, const PipelineEvents& events) {
-        return pipeline.run(input, settings, events);
-      };
-  functions.check_settings = [pipeline](const InputFile& settings) {
-    pipeline.checkSettings(settings);
+  functions.run = [pipeline](const TrialInput& input,
+                             const InputFile& settings,
+                             const PipelineEvents& events,
+                             const std::vector<std::string>& checkpoints) {
+    return pipeline.run(input, settings, events, checkpoints);
+  };
+  functions.check_input = [pipeline](const TrialInput& input, const InputFile& settings) {
+    pipeline.checkInput(input, settings);
   };
   functions.inspect = inspectTrial;
+  functions.read_model = summarizeModel;
+  functions.read_marker_set = summarizeMarkerSet;
   functions.encode_sto = encodeSto;
+  functions.default_settings = Pipeline::defaultSettings();
   return functions;
 }
 

@@ -4,30 +4,35 @@
 #include <vector>
 
 #include "api/ports.h"
+#include "service/job_archive.h"
 #include "service/pipeline_functions.h"
-#include "service/storage/job_store.h"
+#include "service/stores.h"
 
 namespace gaitmill {
 
-/// Results behind the API.
+/// Results behind the API, each readable as soon as its stage has finished.
 class ResultService : public api::ResultPort {
  public:
-  ResultService(JobStore& store, StoEncoder encode_sto);
+  ResultService(Stores& stores, JobArchive& archive, StoEncoder encode_sto);
 
-  TimeSeries findTable(const std::string& job_id,
-                       const std::string& name,
-                       api::TableAxis axis) override;
-  std::string findQuality(const std::string& job_id) override;
+  std::vector<api::ResultView> list(const api::Identity& who, const std::string& job_id) override;
+  api::ResultTable findTable(const api::Identity& who,
+                             const std::string& job_id,
+                             const std::string& name,
+                             api::TableAxis axis) override;
+  std::string findQuality(const api::Identity& who, const std::string& job_id) override;
   std::string encodeSto(const TimeSeries& table, api::AngleUnit angles) override;
-  std::vector<api::FileView> listFiles(const std::string& job_id) override;
-  api::FileContent findFile(const std::string& job_id, const std::string& name) override;
+  std::vector<api::FileView> listFiles(const api::Identity& who,
+                                       const std::string& job_id) override;
+  api::FileContent findFile(const api::Identity& who,
+                            const std::string& job_id,
+                            const std::string& name) override;
+  api::FileContent makeArchive(const api::Identity& who, const std::string& job_id) override;
 
  private:
-  JobStore& store_;
+  Stores& stores_;
+  JobArchive& archive_;
   StoEncoder encode_sto_;
 };
-
-/// Everything of a result that is kept, as bytes. "quality" is cut out of the summary.
-std::vector<ResultItem> makeResultItems(const PipelineResult& result);
 
 }  // namespace gaitmill

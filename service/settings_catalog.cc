@@ -1,6 +1,5 @@
 #include "service/settings_catalog.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include <nlohmann/json.hpp>
@@ -33,27 +32,32 @@ std::string joinNames(const std::vector<std::string>& names) {
 
 }  // namespace
 
-std::vector<std::string> SettingsCatalog::listNames() const {
-  std::vector<std::string> names;
+SettingsCatalog::SettingsCatalog(const std::string& models_folder) {
   std::error_code absent;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_, absent)) {
-    if (entry.path().extension() == ".json") {
-      names.push_back(entry.path().stem().string());
+  for (const auto& entry :
+       std::filesystem::directory_iterator(models_folder + "/settings", absent)) {
+    const std::filesystem::path& path = entry.path();
+    if (path.extension() == ".json") {
+      documents_[path.stem().string()] = {path.filename().string(), readFile(path.string())};
     }
   }
-  std::sort(names.begin(), names.end());
+}
+
+std::vector<std::string> SettingsCatalog::listNames() const {
+  std::vector<std::string> names;
+  for (const auto& [name, document] : documents_) {
+    names.push_back(name);
+  }
   return names;
 }
 
-// The name is looked up in the list, never pasted into a path.
 InputFile SettingsCatalog::find(const std::string& name) const {
-  const std::vector<std::string> names = listNames();
-  require(std::find(names.begin(), names.end(), name) != names.end(),
+  const auto found = documents_.find(name);
+  require(found != documents_.end(),
           ErrorCode::kSettingsValue,
-          "there are no settings of this name; there are: " + joinNames(names),
+          "there are no settings of this name; there are: " + joinNames(listNames()),
           {"", 0, 0, "settings"});
-  const std::string file = name + ".json";
-  return {file, readFile(folder_ + "/" + file)};
+  return found->second;
 }
 
 InputFile mergeSettings(const InputFile& base, const InputFile& changes) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -7,10 +8,10 @@
 
 namespace gaitmill {
 
-/// The settings documents that ship with the product: <models>/settings/<name>.json.
+/// The settings documents that ship with the product (<models>/settings/<name>.json), read once.
 class SettingsCatalog {
  public:
-  explicit SettingsCatalog(const std::string& models_folder) : folder_(models_folder + "/settings") {}
+  explicit SettingsCatalog(const std::string& models_folder);
 
   /// @throws Error kSettingsValue naming the settings there are
   InputFile find(const std::string& name) const;
@@ -18,7 +19,7 @@ class SettingsCatalog {
   std::vector<std::string> listNames() const;
 
  private:
-  std::string folder_;
+  std::map<std::string, InputFile> documents_;  ///< by name
 };
 
 /// `base` with the fields of `changes` put over it, object by object (RFC 7386). Both are JSON

@@ -22,7 +22,7 @@ struct CatalogEntry {
 
 /// An API key as its owner sees it. The secret is shown once, when it is made.
 struct KeyView {
-  std::string id;      ///< "key_…"
+  std::string id;  ///< "key_…"
   std::string tenant;
   std::string name;
   std::vector<std::string> scopes;  ///< "read", "write", "admin"
@@ -31,7 +31,15 @@ struct KeyView {
   std::string secret;               ///< only in the answer to its creation
 };
 
+/// {"name": "lab computer", "scopes": ["read", "write"]}
+struct KeyRequest {
+  std::string name;
+  std::vector<std::string> scopes;  ///< at least one
+};
+
 std::string renderCatalogEntry(const CatalogEntry& entry);
+/// @throws Error kRequestMalformed, kRequestField naming the field
+KeyRequest parseKeyRequest(const std::string& json);
 std::string renderKey(const KeyView& key);
 
 }  // namespace gaitmill::api

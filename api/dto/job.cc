@@ -50,6 +50,10 @@ json toJson(const std::vector<StageTiming>& stages) {
   return list;
 }
 
+json textOrNull(const std::string& text) {
+  return text.empty() ? json(nullptr) : json(text);
+}
+
 }  // namespace
 
 const char* jobStateName(JobState state) {
@@ -74,19 +78,24 @@ bool isFinal(JobState state) {
   return state != JobState::kQueued && state != JobState::kRunning;
 }
 
-JobRequest parseJobRequest(const std::string& text) {
-  const json object = parseJson(text, "job");
-  ObjectReader reader(object, "job");
-  JobRequest request;
-  request.trial_id = reader.text("trial");
-  const json* settings = reader.value("settings");
+void putSettings(const json* settings, JobRequest& request) {
   if (settings == nullptr) {
     request.settings_name = "default";
   } else if (settings->is_object()) {
     request.settings_json = dumpJson(*settings);
   } else {
-    request.settings_name = reader.text("settings");
+    request.settings_name = toText(*settings, "settings");
   }
+}
+
+JobRequest parseJobRequest(const std::string& text) {
+  const json object = parseJson(text, "job");
+  ObjectReader reader(object, "job");
+  JobRequest request;
+  request.trial_id = reader.text("trial");
+  putSettings(reader.value("settings"), request);
+  request.label = reader.optionalText("label").value_or("");
+  request.model_id = reader.optionalText("model").value_or("");
   reader.finish();
   return request;
 }
@@ -109,30 +118,40 @@ double calcJobProgress(const JobView& job) {
 std::string renderJob(const JobView& job) {
   json object{{"id", job.id},
               {"trial", job.trial_id},
-              {"settings", nullptr},
+              {"study", textOrNull(job.study_id)},
+              {"model", textOrNull(job.model_id)},
+              {"subject", textOrNull(job.subject)},
+              {"label", textOrNull(job.label)},
+              {"settings", textOrNull(job.settings_name)},
               {"state", jobStateName(job.state)},
               {"stage", nullptr},
               {"progress", calcJobProgress(job)},
+              {"queue_position", nullptr},
+              {"seconds_left", nullptr},
               {"attempt", job.attempt},
               {"cancel_requested", job.cancel_requested},
-              {"jobs_ahead", nullptr},
               {"stages", toJson(job.stages)},
               {"submitted_at", formatTimestamp(job.submitted_at)},
               {"started_at", timestampOrNull(job.started_at)},
               {"finished_at", timestampOrNull(job.finished_at)},
               {"warnings", job.warnings},
+              {"verdict", textOrNull(job.verdict)},
+              {"provenance", textOrNull(job.provenance)},
               {"error", nullptr}};
-  if (!job.settings_name.empty()) {
-    object["settings"] = job.settings_name;
-  }
   if (job.state == JobState::kRunning && !job.stages.empty()) {
     object["stage"] = job.stages.back().stage;
   }
   if (job.jobs_ahead) {
-    object["jobs_ahead"] = *job.jobs_ahead;
+    object["queue_position"] = *job.jobs_ahead + 1;
+  }
+  if (job.seconds_left) {
+    object["seconds_left"] = *job.seconds_left;
   }
   if (job.error) {
     object["error"] = json::parse(*job.error);
+  }
+  if (!job.settings_json.empty()) {
+    object["settings_document"] = json::parse(job.settings_json);
   }
   return dumpJson(object);
 }

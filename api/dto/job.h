@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 namespace gaitmill::api {
 
 enum class JobState { kQueued, kRunning, kSucceeded, kFailed, kCancelled };
@@ -68,6 +70,9 @@ struct JobEvent {
 
 /// @throws Error kRequestMalformed, kRequestField naming the field
 JobRequest parseJobRequest(const std::string& json);
+/// The settings of a request: a name, a document, or nothing for "default".
+/// @throws Error kRequestField for any other kind of value
+void putSettings(const nlohmann::json* settings, JobRequest& request);
 
 std::string renderJob(const JobView& job);
 

@@ -25,12 +25,32 @@ Where findPlace(const std::string& text, std::size_t byte, const std::string& wh
   return {what, static_cast<int>(line), static_cast<int>(column), ""};
 }
 
+// Line breaks and other control characters have no place in a name.
+bool isPlain(const std::string& text) {
+  return std::none_of(text.begin(), text.end(), [](unsigned char letter) {
+    return letter < 0x20 || letter == 0x7f;
+  });
+}
+
 std::string describeRange(const NumberRange& range) {
   return nlohmann::json(range.low).dump() + " to " + nlohmann::json(range.high).dump() + " " +
          range.unit;
 }
 
 }  // namespace
+
+std::string toText(const nlohmann::json& value, const std::string& field) {
+  gaitmill::require(value.is_string() && isName(value.get_ref<const std::string&>()),
+                    ErrorCode::kRequestField,
+                    "field '" + field + "' must be a text of 1 to " +
+                        std::to_string(kMaxTextLength) + " bytes on one line",
+                    {"", 0, 0, field});
+  return value.get<std::string>();
+}
+
+bool isName(const std::string& text) {
+  return !text.empty() && text.size() <= kMaxTextLength && isPlain(text);
+}
 
 nlohmann::json parseJson(const std::string& text, const std::string& what) {
   using Event = nlohmann::json::parse_event_t;
@@ -88,14 +108,7 @@ double ObjectReader::number(const std::string& field, NumberRange range) {
 }
 
 std::string ObjectReader::text(const std::string& field) {
-  const nlohmann::json& found = require(field);
-  gaitmill::require(
-      found.is_string() && !found.get_ref<const std::string&>().empty() &&
-          found.get_ref<const std::string&>().size() <= kMaxTextLength,
-      ErrorCode::kRequestField,
-      "field '" + field + "' must be a text of 1 to " + std::to_string(kMaxTextLength) + " bytes",
-      {"", 0, 0, name_ + "." + field});
-  return found.get<std::string>();
+  return toText(require(field), name_ + "." + field);
 }
 
 std::optional<std::string> ObjectReader::optionalText(const std::string& field) {

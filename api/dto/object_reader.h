@@ -15,6 +15,12 @@ nlohmann::json parseJson(const std::string& text, const std::string& what);
 /// Serializes, replacing bytes that are not UTF-8, so that a strange file name cannot fail a reply.
 std::string dumpJson(const nlohmann::json& json);
 
+/// 1 to 200 bytes without control characters: what a name or a label of the user's may be.
+bool isName(const std::string& text);
+
+/// The text of a JSON value that is a name. @throws Error kRequestField with this field
+std::string toText(const nlohmann::json& value, const std::string& field);
+
 struct NumberRange {
   double low;
   double high;

@@ -21,13 +21,17 @@ struct Page {
 
 /// What a list may be narrowed to; empty members ask nothing. Not every resource has every member.
 struct ListFilter {
-  std::string state;                             ///< of jobs
-  std::string subject;                           ///< of trials, and of the trials of jobs
-  std::string label;                             ///<
-  std::string trial_id;                          ///< of jobs
-  std::string study_id;                          ///< of jobs
-  std::optional<std::int64_t> created_after;     ///< [ms since 1970 UTC], exclusive
-  std::optional<std::int64_t> created_before;    ///< [ms since 1970 UTC], exclusive
+  std::string state;                           ///< of jobs
+  std::string subject;                         ///< of trials, and of the trials of jobs
+  std::string label;                           ///<
+  std::string trial_id;                        ///< of jobs
+  std::string study_id;                        ///< of jobs
+  std::optional<std::int64_t> created_after;   ///< [ms since 1970 UTC], exclusive
+  std::optional<std::int64_t> created_before;  ///< [ms since 1970 UTC], exclusive
 };
+
+/// {"items": […], "next_cursor": … or null}, the shape of every list.
+/// @param items  JSON values
+std::string renderPage(const std::vector<std::string>& items, const std::string& next_cursor);
 
 }  // namespace gaitmill::api

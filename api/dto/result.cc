@@ -3,11 +3,14 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "api/dto/csv.h"
 #include "api/dto/object_reader.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
@@ -29,13 +32,34 @@ constexpr std::array<FormatName, 3> kFormats{
      {ResultFormat::kCsv, "csv", "text/csv", "text/csv; charset=utf-8"},
      {ResultFormat::kSto, "sto", "application/vnd.opensim.sto", "application/vnd.opensim.sto"}}};
 
-// "text/csv;q=0.9" -> "text/csv"
-std::string trimMediaType(const std::string& text) {
+std::string trim(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t");
-  const std::size_t last = text.find_last_not_of(" \t", text.find(';') - 1);
-  return first == std::string::npos || last == std::string::npos || last < first
-             ? ""
-             : text.substr(first, last - first + 1);
+  const std::size_t last = text.find_last_not_of(" \t");
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+// One entry of an Accept header: "text/csv; q=0.9".
+struct MediaRange {
+  std::string type;
+  double quality = 1.0;
+};
+
+MediaRange parseMediaRange(const std::string& text) {
+  MediaRange range;
+  std::istringstream pieces(text);
+  std::string piece;
+  std::getline(pieces, piece, ';');
+  range.type = trim(piece);
+  while (std::getline(pieces, piece, ';')) {
+    const std::string parameter = trim(piece);
+    if (parameter.rfind("q=", 0) == 0) {
+      const char* const end = parameter.data() + parameter.size();
+      if (std::from_chars(parameter.data() + 2, end, range.quality).ec != std::errc()) {
+        range.quality = 0.0;
+      }
+    }
+  }
+  return range;
 }
 
 bool matches(const std::string& range, const std::string& media_type) {
@@ -43,10 +67,39 @@ bool matches(const std::string& range, const std::string& media_type) {
          range == media_type.substr(0, media_type.find('/')) + "/*";
 }
 
-void appendNumber(std::string& out, double value) {
-  std::array<char, 32> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-  out.append(digits.data(), end.ptr);
+const FormatName& findFormatName(ResultFormat format) {
+  for (const FormatName& known : kFormats) {
+    if (known.format == format) {
+      return known;
+    }
+  }
+  throw Error(ErrorCode::kInternal, "result format without a name");
+}
+
+// The offer that the header likes best; of equals the one that it names first.
+std::optional<ResultFormat> negotiate(const std::string& accept, const Formats& offers) {
+  std::optional<ResultFormat> best;
+  double best_quality = 0.0;
+  std::istringstream ranges(accept);
+  std::string text;
+  while (std::getline(ranges, text, ',')) {
+    const MediaRange range = parseMediaRange(text);
+    for (const ResultFormat offer : offers) {
+      if (range.quality > best_quality && matches(range.type, findFormatName(offer).media_type)) {
+        best = offer;
+        best_quality = range.quality;
+      }
+    }
+  }
+  return best;
+}
+
+std::string listOffers(const Formats& offers, const char* FormatName::*member) {
+  std::string list;
+  for (const ResultFormat offer : offers) {
+    list.append(list.empty() ? "" : ", ").append(findFormatName(offer).*member);
+  }
+  return list;
 }
 
 template <class Values>
@@ -65,19 +118,32 @@ void appendValues(std::string& out, const Values& values) {
   out += ']';
 }
 
-template <class Values>
-void appendColumn(std::string& out,
-                  const std::string& name,
-                  const std::string& unit,
-                  const Values& values) {
-  out += "{\"name\":" + dumpJson(name) + ",\"unit\":" + dumpJson(unit) + ",\"values\":";
-  appendValues(out, values);
-  out += '}';
-}
-
 std::string unitOf(const TimeSeries& table, int column) {
   const std::string unit = table.units.empty() ? "" : table.units[static_cast<std::size_t>(column)];
   return unit.empty() ? "1" : unit;
+}
+
+// A column: its opening up to the values.
+std::string dumpHead(const json& column) {
+  std::string head = dumpJson(column);
+  head.pop_back();
+  return head + ",\"values\":";
+}
+
+// The side of "soleus_r", "hip_flexion_l_moment": the first part between underscores that is one
+// of the letters. Null for what has none, such as the pelvis.
+json findSide(const std::string& label) {
+  std::istringstream parts(label);
+  std::string part;
+  while (std::getline(parts, part, '_')) {
+    if (part == "r") {
+      return "right";
+    }
+    if (part == "l") {
+      return "left";
+    }
+  }
+  return nullptr;
 }
 
 const char* axisName(TableAxis axis) {
@@ -86,23 +152,6 @@ const char* axisName(TableAxis axis) {
 const char* axisUnit(TableAxis axis) {
   return axis == TableAxis::kTime ? "s" : "percent";
 }
-
-// Labels come from uploaded files, so they may hold anything.
-std::string quoteCsv(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) {
-    return text;
-  }
-  std::string quoted = "\"";
-  for (const char letter : text) {
-    quoted += letter;
-    if (letter == '"') {
-      quoted += '"';
-    }
-  }
-  return quoted + "\"";
-}
-
-using Quantities = std::vector<std::pair<std::string, double>>;
 
 void collectNumbers(const json& value, const std::string& path, Quantities& found) {
   if (value.is_number()) {
@@ -122,36 +171,41 @@ void collectNumbers(const json& value, const std::string& path, Quantities& foun
 }  // namespace
 
 const std::vector<std::string>& tableNames() {
-  static const std::vector<std::string> names = {
-      "moments", "activations", "forces", "kinematics", "residuals"};
+  static const std::vector<std::string> names = {"moments",
+                                                 "activations",
+                                                 "excitations",
+                                                 "forces",
+                                                 "fiber_lengths",
+                                                 "fiber_velocities",
+                                                 "kinematics",
+                                                 "residuals",
+                                                 "reserves",
+                                                 "marker_errors",
+                                                 "joint_reactions"};
   return names;
 }
 
-ResultFormat findResultFormat(const std::string& format, const std::string& accept) {
-  for (const FormatName& known : kFormats) {
-    if (format == known.parameter) {
-      return known.format;
+ResultFormat findResultFormat(const std::string& format,
+                              const std::string& accept,
+                              const Formats& offers) {
+  for (const ResultFormat offer : offers) {
+    if (format == findFormatName(offer).parameter) {
+      return offer;
     }
   }
   require(format.empty(),
           ErrorCode::kRequestNotAcceptable,
-          "results come as json, csv or sto",
+          "this comes as " + listOffers(offers, &FormatName::parameter),
           {"", 0, 0, "format"});
   if (accept.empty()) {
-    return ResultFormat::kJson;
+    return offers.front();
   }
-  std::istringstream ranges(accept);
-  std::string range;
-  while (std::getline(ranges, range, ',')) {
-    for (const FormatName& known : kFormats) {
-      if (matches(trimMediaType(range), known.media_type)) {
-        return known.format;
-      }
-    }
-  }
-  throw Error(ErrorCode::kRequestNotAcceptable,
-              "results come as application/json, text/csv or application/vnd.opensim.sto",
-              {"", 0, 0, "Accept"});
+  const std::optional<ResultFormat> best = negotiate(accept, offers);
+  require(best.has_value(),
+          ErrorCode::kRequestNotAcceptable,
+          "this comes as " + listOffers(offers, &FormatName::media_type),
+          {"", 0, 0, "Accept"});
+  return *best;
 }
 
 TableAxis parseTableAxis(const std::string& text) {
@@ -171,12 +225,11 @@ AngleUnit parseAngleUnit(const std::string& text) {
 }
 
 const char* contentType(ResultFormat format) {
-  for (const FormatName& known : kFormats) {
-    if (known.format == format) {
-      return known.content_type;
-    }
-  }
-  throw Error(ErrorCode::kInternal, "result format without a content type");
+  return findFormatName(format).content_type;
+}
+
+const char* formatName(ResultFormat format) {
+  return findFormatName(format).parameter;
 }
 
 TimeSeries convertToDegrees(TimeSeries table) {
@@ -189,21 +242,23 @@ TimeSeries convertToDegrees(TimeSeries table) {
   return table;
 }
 
-std::string renderTableJson(const TimeSeries& table, TableAxis axis) {
-  std::string out = "{\"name\":" + dumpJson(table.name) + ",\"axis\":";
-  const Eigen::Map<const Eigen::VectorXd> time(table.time.data(), table.rowCount());
-  appendColumn(out, axisName(axis), axisUnit(axis), time);
-  out += ",\"columns\":[";
+std::string renderTableJson(const ResultTable& result, TableAxis axis) {
+  const TimeSeries& table = result.table;
+  std::string out = "{\"name\":" + dumpJson(table.name) + ",\"stage\":" + dumpJson(result.stage) +
+                    ",\"final\":" + (result.is_final ? "true" : "false") +
+                    ",\"provenance\":" + dumpJson(result.provenance) +
+                    ",\"axis\":" + dumpHead({{"name", axisName(axis)}, {"unit", axisUnit(axis)}});
+  appendValues(out, Eigen::Map<const Eigen::VectorXd>(table.time.data(), table.rowCount()));
+  out += "},\"columns\":[";
   for (int column = 0; column < table.columnCount(); ++column) {
-    if (column > 0) {
-      out += ',';
-    }
-    appendColumn(out,
-                 table.labels[static_cast<std::size_t>(column)],
-                 unitOf(table, column),
-                 table.values.col(column));
+    const std::string& name = table.labels[static_cast<std::size_t>(column)];
+    out += column > 0 ? "," : "";
+    out += dumpHead({{"name", name}, {"unit", unitOf(table, column)}, {"side", findSide(name)}});
+    appendValues(out, table.values.col(column));
+    out += '}';
   }
-  return out + "]}";
+  return out + "],\"settings\":" + (result.settings_json.empty() ? "null" : result.settings_json) +
+         "}";
 }
 
 std::string renderTableCsv(const TimeSeries& table, TableAxis axis) {
@@ -225,9 +280,14 @@ std::string renderTableCsv(const TimeSeries& table, TableAxis axis) {
   return out + "\n";
 }
 
-std::string renderQualityCsv(const std::string& quality_json) {
+Quantities listQuantities(const std::string& quality_json) {
   Quantities quantities;
   collectNumbers(json::parse(quality_json), "", quantities);
+  return quantities;
+}
+
+std::string renderQualityCsv(const std::string& quality_json) {
+  const Quantities quantities = listQuantities(quality_json);
   std::string out = "quantity,value\n";
   for (const auto& [name, value] : quantities) {
     out += quoteCsv(name) + ",";
@@ -238,8 +298,7 @@ std::string renderQualityCsv(const std::string& quality_json) {
 }
 
 TimeSeries makeQualityTable(const std::string& quality_json) {
-  Quantities quantities;
-  collectNumbers(json::parse(quality_json), "", quantities);
+  const Quantities quantities = listQuantities(quality_json);
   std::vector<std::string> labels;
   for (const auto& [name, value] : quantities) {
     labels.push_back(name);
@@ -251,12 +310,16 @@ TimeSeries makeQualityTable(const std::string& quality_json) {
   return table;
 }
 
-std::string renderFiles(const std::vector<FileView>& files) {
-  json list = json::array();
-  for (const FileView& file : files) {
-    list.push_back({{"name", file.name}, {"size_bytes", file.size}, {"sha256", file.sha256}});
-  }
-  return dumpJson({{"files", list}});
+std::string renderFile(const FileView& file) {
+  return dumpJson({{"name", file.name}, {"size_bytes", file.size}, {"sha256", file.sha256}});
+}
+
+std::string renderResult(const ResultView& result) {
+  const json axes = result.has_cycle ? json{"time", "cycle"} : json::array({"time"});
+  return dumpJson({{"name", result.name},
+                   {"stage", result.stage},
+                   {"axes", result.name == "quality" ? json::array() : axes},
+                   {"formats", {"json", "csv", "sto"}}});
 }
 
 }  // namespace gaitmill::api

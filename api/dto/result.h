@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "api/http.h"
@@ -20,8 +21,8 @@ const std::vector<std::string>& tableNames();
 
 /// One result that a job has so far.
 struct ResultView {
-  std::string name;    ///< of tableNames(), or "quality"
-  std::string stage;   ///< that made it
+  std::string name;        ///< of tableNames(), or "quality"
+  std::string stage;       ///< that made it
   bool has_cycle = false;  ///< also on the cycle axis
 };
 
@@ -31,7 +32,7 @@ struct ResultTable {
   std::string stage;       ///< that made it
   std::string provenance;  ///< of the job, hex
   std::string settings_json;
-  bool is_final = false;   ///< false while a later stage may still replace it
+  bool is_final = false;  ///< false while a later stage may still replace it
 };
 
 struct FileView {
@@ -45,9 +46,14 @@ struct FileContent {
   std::shared_ptr<const ByteSource> bytes;
 };
 
-/// Format by the parameter `format` ("" if absent), else by the Accept header ("" = anything).
+using Formats = std::vector<ResultFormat>;
+
+/// One of `offers`, by the parameter `format` ("" if absent), else the one that the Accept header
+/// likes best ("" = the first).
 /// @throws Error kRequestNotAcceptable naming what there is
-ResultFormat findResultFormat(const std::string& format, const std::string& accept);
+ResultFormat findResultFormat(const std::string& format,
+                              const std::string& accept,
+                              const Formats& offers);
 
 /// @throws Error kRequestField; "" means time, radians
 TableAxis parseTableAxis(const std::string& text);
@@ -55,17 +61,25 @@ AngleUnit parseAngleUnit(const std::string& text);
 
 /// "application/json", "text/csv; charset=utf-8", "application/vnd.opensim.sto"
 const char* contentType(ResultFormat format);
+/// "json", "csv", "sto"
+const char* formatName(ResultFormat format);
 
 /// Columns in rad and rad/s to deg and deg/s; all others as they are.
 TimeSeries convertToDegrees(TimeSeries table);
 
-/// {"name", "axis": {"name", "unit", "values"}, "columns": [{"name", "unit", "values"}]}, NaN as
-/// null. Numbers have the digits that give the same double back.
-std::string renderTableJson(const TimeSeries& table, TableAxis axis);
+/// {"name", "stage", "final", "provenance", "axis": {"name", "unit", "values"}, "columns":
+/// [{"name", "unit", "side", "values"}], "settings"}, NaN as null. Numbers have the digits that
+/// give the same double back; the side is "right", "left" or null.
+std::string renderTableJson(const ResultTable& result, TableAxis axis);
 
 /// First row "time [s],hip_flexion_r [N.m],…"; dimensionless columns have the unit 1; NaN is an
 /// empty cell.
 std::string renderTableCsv(const TimeSeries& table, TableAxis axis);
+
+using Quantities = std::vector<std::pair<std::string, double>>;
+
+/// Every number of the quality figures with its dotted path.
+Quantities listQuantities(const std::string& quality_json);
 
 /// "quantity,value" with one row per number, quantities as dotted paths whose last part wears the
 /// unit: "moments.ankle_angle_r.rmse_nm,0.31".
@@ -74,6 +88,7 @@ std::string renderQualityCsv(const std::string& quality_json);
 /// The same numbers as a table of one row at time 0.
 TimeSeries makeQualityTable(const std::string& quality_json);
 
-std::string renderFiles(const std::vector<FileView>& files);
+std::string renderFile(const FileView& file);
+std::string renderResult(const ResultView& result);
 
 }  // namespace gaitmill::api

@@ -9,8 +9,8 @@
 
 namespace gaitmill::api {
 
-/// {"name", "trials": ["tri_…", …], "settings": ["default", {…}, …], "label"}: one job for every
-/// pair of a trial and settings, all or none.
+/// {"name", "trials": ["tri_…", …], "settings": ["default", {…}, …], "label", "model"}: one job for
+/// every pair of a trial and settings, all or none.
 struct StudyRequest {
   std::string name;
   std::vector<JobRequest> jobs;  ///< trials × settings, trial by trial
@@ -37,7 +37,9 @@ struct StudyRow {
 /// @throws Error kRequestMalformed, kRequestField naming the field
 StudyRequest parseStudyRequest(const std::string& json);
 std::string renderStudy(const StudyView& study);
-std::string renderStudyTable(const StudyView& study, const std::vector<StudyRow>& rows);
-std::string renderStudyTableCsv(const StudyView& study, const std::vector<StudyRow>& rows);
+/// One row per job, in the order of submission. In JSON the quality figures as they are; in CSV one
+/// column for every figure that any row has, named by its dotted path.
+std::string renderStudyTable(const std::vector<StudyRow>& rows);
+std::string renderStudyTableCsv(const std::vector<StudyRow>& rows);
 
 }  // namespace gaitmill::api

@@ -29,6 +29,59 @@ std::optional<T> getIfPresent(const json& object, const char* key) {
   return found == object.end() ? std::nullopt : std::optional<T>(found->get<T>());
 }
 
+json textOrNull(const std::string& text) {
+  return text.empty() ? json(nullptr) : json(text);
+}
+
+json toJson(const MarkerSetMatch& match) {
+  return {{"marker_set", match.marker_set}, {"found", match.found}, {"missing", match.missing}};
+}
+
+MarkerSetMatch toMarkerSetMatch(const json& object) {
+  return {object.at("marker_set"),
+          object.at("found").get<std::vector<std::string>>(),
+          object.at("missing").get<std::vector<std::string>>()};
+}
+
+json toJson(const ContactView& contact) {
+  return {{"plate", contact.plate},
+          {"foot", textOrNull(contact.foot)},
+          {"start_s", contact.strike},
+          {"end_s", contact.toe_off},
+          {"starts_with_foot_strike", contact.has_strike},
+          {"ends_with_toe_off", contact.has_toe_off}};
+}
+
+ContactView toContact(const json& object) {
+  ContactView contact;
+  contact.plate = object.at("plate");
+  contact.foot = object.at("foot").is_null() ? "" : object.at("foot").get<std::string>();
+  contact.strike = object.at("start_s");
+  contact.toe_off = object.at("end_s");
+  contact.has_strike = object.at("starts_with_foot_strike");
+  contact.has_toe_off = object.at("ends_with_toe_off");
+  return contact;
+}
+
+json toJson(const GaitEventView& event) {
+  return {{"event", event.kind}, {"foot", event.foot}, {"time_s", event.time}};
+}
+
+GaitEventView toEvent(const json& object) {
+  return {object.at("event"), object.at("foot"), object.at("time_s")};
+}
+
+json toJson(const UnderstoodFile& file);
+
+template <class T>
+json toList(const std::vector<T>& values) {
+  json list = json::array();
+  for (const T& value : values) {
+    list.push_back(toJson(value));
+  }
+  return list;
+}
+
 json toJson(const UnderstoodFile& file) {
   json object{{"part", file.part},
               {"name", file.name},
@@ -39,13 +92,37 @@ json toJson(const UnderstoodFile& file) {
   putIfPresent(object, "rate_hz", file.rate);
   putIfPresent(object, "start_s", file.start);
   putIfPresent(object, "end_s", file.end);
+  if (!file.units.empty()) {
+    object["units"] = file.units;
+  }
   if (!file.labels_kind.empty()) {
     object[file.labels_kind] = file.labels;
+  }
+  if (file.labels_kind == "markers") {
+    object["marker_sets"] = toList(file.marker_sets);
+  }
+  if (file.labels_kind == "forces") {
+    object["contacts"] = toList(file.contacts);
   }
   return object;
 }
 
-UnderstoodFile fromJson(const json& object) {
+void readLists(const json& object, UnderstoodFile& file) {
+  for (const char* kind : {"markers", "forces", "columns", "muscles"}) {
+    if (object.contains(kind)) {
+      file.labels_kind = kind;
+      file.labels = object.at(kind).get<std::vector<std::string>>();
+    }
+  }
+  for (const json& match : object.value("marker_sets", json::array())) {
+    file.marker_sets.push_back(toMarkerSetMatch(match));
+  }
+  for (const json& contact : object.value("contacts", json::array())) {
+    file.contacts.push_back(toContact(contact));
+  }
+}
+
+UnderstoodFile toFile(const json& object) {
   UnderstoodFile file;
   file.part = object.at("part");
   file.name = object.at("name");
@@ -56,21 +133,9 @@ UnderstoodFile fromJson(const json& object) {
   file.rate = getIfPresent<double>(object, "rate_hz");
   file.start = getIfPresent<double>(object, "start_s");
   file.end = getIfPresent<double>(object, "end_s");
-  for (const char* kind : {"markers", "forces", "columns", "muscles"}) {
-    if (object.contains(kind)) {
-      file.labels_kind = kind;
-      file.labels = object.at(kind).get<std::vector<std::string>>();
-    }
-  }
+  file.units = object.value("units", "");
+  readLists(object, file);
   return file;
-}
-
-json toJson(const std::vector<UnderstoodFile>& files) {
-  json list = json::array();
-  for (const UnderstoodFile& file : files) {
-    list.push_back(toJson(file));
-  }
-  return list;
 }
 
 }  // namespace
@@ -88,6 +153,8 @@ TrialSubject parseTrialSubject(const std::string& text) {
   subject.mass = reader.number("mass_kg", kMassRange);
   subject.height = reader.number("height_m", kHeightRange);
   subject.marker_set = reader.optionalText("marker_set");
+  subject.subject = reader.optionalText("subject").value_or("");
+  subject.label = reader.optionalText("label").value_or("");
   if (const json* options = reader.value("options")) {
     require(options->is_object(),
             ErrorCode::kRequestField,
@@ -100,30 +167,44 @@ TrialSubject parseTrialSubject(const std::string& text) {
 }
 
 std::string renderTrial(const TrialView& trial) {
-  json object{{"id", trial.id},
-              {"created_at", formatTimestamp(trial.created_at)},
+  const bool is_stored = !trial.id.empty();
+  json object{{"id", textOrNull(trial.id)},
+              {"created_at", nullptr},
+              {"subject", textOrNull(trial.subject.subject)},
+              {"label", textOrNull(trial.subject.label)},
               {"mass_kg", trial.subject.mass},
               {"height_m", trial.subject.height},
               {"marker_set", nullptr},
               {"options", json::parse(trial.subject.options)},
-              {"files", toJson(trial.files)},
+              {"files", toList(trial.files)},
+              {"events", toList(trial.events)},
               {"warnings", trial.warnings}};
+  if (is_stored) {
+    object["created_at"] = formatTimestamp(trial.created_at);
+  }
   if (trial.subject.marker_set) {
     object["marker_set"] = *trial.subject.marker_set;
   }
   return dumpJson(object);
 }
 
-std::string encodeUnderstoodFiles(const std::vector<UnderstoodFile>& files) {
-  return dumpJson(toJson(files));
+std::string encodeUnderstanding(const TrialView& trial) {
+  return dumpJson({{"files", toList(trial.files)},
+                   {"events", toList(trial.events)},
+                   {"warnings", trial.warnings}});
 }
 
-std::vector<UnderstoodFile> decodeUnderstoodFiles(const std::string& text) {
-  std::vector<UnderstoodFile> files;
-  for (const json& object : json::parse(text)) {
-    files.push_back(fromJson(object));
+void decodeUnderstanding(const std::string& text, TrialView& trial) {
+  const json object = json::parse(text);
+  trial.files.clear();
+  for (const json& file : object.at("files")) {
+    trial.files.push_back(toFile(file));
   }
-  return files;
+  trial.events.clear();
+  for (const json& event : object.at("events")) {
+    trial.events.push_back(toEvent(event));
+  }
+  trial.warnings = object.at("warnings").get<std::vector<std::string>>();
 }
 
 }  // namespace gaitmill::api

@@ -93,8 +93,8 @@ TrialSubject parseTrialSubject(const std::string& json);
 
 std::string renderTrial(const TrialView& trial);
 
-/// What was understood (files, events) as JSON and back: how a trial's reading is kept in storage,
-/// and how it comes back from the process that reads hostile bytes.
+/// What was understood (files, events, warnings) as JSON and back: how a trial's reading is kept in
+/// storage, and how it comes back from the process that reads hostile bytes.
 std::string encodeUnderstanding(const TrialView& trial);
 void decodeUnderstanding(const std::string& json, TrialView& trial);
 

@@ -1,10 +1,12 @@
 #include "service/storage/ids.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <random>
+#include <string_view>
 
 #include "service/storage/clock.h"
 
@@ -51,18 +53,47 @@ Stamp nextStamp() {
   return last;
 }
 
+std::string writeTime(std::uint64_t time) {
+  std::string text;
+  for (int letter = kTimeLetters - 1; letter >= 0; --letter) {
+    text += kAlphabet[(time >> (5U * static_cast<unsigned>(letter))) % 32U];
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string makeId(const std::string& prefix) {
   const Stamp stamp = nextStamp();
-  std::string id = prefix;
-  for (int letter = kTimeLetters - 1; letter >= 0; --letter) {
-    id += kAlphabet[(stamp.time >> (5U * static_cast<unsigned>(letter))) % 32U];
-  }
+  std::string id = prefix + writeTime(stamp.time);
   for (const std::uint32_t digit : stamp.random) {
     id += kAlphabet[digit];
   }
   return id;
+}
+
+bool isId(const std::string& text, const std::string& prefix) {
+  return text.size() == prefix.size() + kTimeLetters + kRandomLetters &&
+         text.compare(0, prefix.size(), prefix) == 0 &&
+         text.find_first_not_of(kAlphabet.data(), prefix.size()) == std::string::npos;
+}
+
+std::int64_t findTimeOfId(const std::string& id) {
+  const std::size_t begin = id.find('_') + 1;
+  if (!isId(id, id.substr(0, begin))) {
+    return 0;
+  }
+  std::int64_t time = 0;
+  for (const char letter : id.substr(begin, kTimeLetters)) {
+    time = time * 32 + static_cast<std::int64_t>(std::string_view(kAlphabet.data()).find(letter));
+  }
+  return time;
+}
+
+std::string makeIdBound(const std::string& prefix, std::int64_t milliseconds) {
+  constexpr std::int64_t kLast = (std::int64_t{1} << (5 * kTimeLetters)) - 1;
+  return prefix +
+         writeTime(static_cast<std::uint64_t>(std::clamp<std::int64_t>(milliseconds, 0, kLast)));
 }
 
 }  // namespace gaitmill

@@ -10,6 +10,9 @@ namespace gaitmill {
 /// creation. Ids made by one process within one millisecond still ascend. Safe from any thread.
 std::string makeId(const std::string& prefix);
 
+/// Whether the text has the form of such an id.
+bool isId(const std::string& text, const std::string& prefix);
+
 /// When an id was made [ms since 1970 UTC]; 0 if it is none.
 std::int64_t findTimeOfId(const std::string& id);
 

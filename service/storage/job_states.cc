@@ -8,13 +8,12 @@ namespace gaitmill {
 
 bool isAllowedChange(api::JobState from, api::JobState to) {
   using State = api::JobState;
-  static constexpr std::array<std::pair<State, State>, 6> kAllowed{
+  static constexpr std::array<std::pair<State, State>, 5> kAllowed{
       {{State::kQueued, State::kRunning},
        {State::kQueued, State::kCancelled},
        {State::kRunning, State::kSucceeded},
        {State::kRunning, State::kFailed},
-       {State::kRunning, State::kCancelled},
-       {State::kRunning, State::kQueued}}};
+       {State::kRunning, State::kCancelled}}};
   return std::find(kAllowed.begin(), kAllowed.end(), std::pair(from, to)) != kAllowed.end();
 }
 

@@ -9,7 +9,8 @@ namespace gaitmill {
 ///   queued  -> running     a worker claims it
 ///   queued  -> cancelled   the user, before it began
 ///   running -> succeeded, failed, cancelled
-///   running -> queued      the service stops or has died
+///
+/// A job whose worker stops or dies stays running until somebody claims it again.
 bool isAllowedChange(api::JobState from, api::JobState to);
 
 }  // namespace gaitmill

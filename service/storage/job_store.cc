@@ -1,13 +1,13 @@
 #include "service/storage/job_store.h"
 
+#include <algorithm>
 #include <utility>
 
-#include "api/dto/error_body.h"
-#include "core/base/error.h"
 #include "service/storage/clock.h"
-#include "service/storage/ids.h"
-#include "service/storage/job_states.h"
-#include "service/storage/sha256.h"
+#include "service/storage/job_rows.h"
+#include "service/storage/list_query.h"
+#include "service/storage/sql/jobs.h"
+#include "service/storage/sql/usage.h"
 
 namespace gaitmill {
 
@@ -15,358 +15,209 @@ namespace {
 
 using api::JobState;
 
-constexpr const char* kTrialExists = "SELECT 1 FROM trials WHERE id = ?1";
-constexpr const char* kAddJob =
-    "INSERT INTO jobs (id, trial_id, settings_name, settings, state, submitted_at) "
-    "VALUES (?1, ?2, ?3, ?4, 'queued', ?5)";
-constexpr const char* kFindJob =
-    "SELECT trial_id, settings_name, state, claim, cancel_requested, submitted_at, started_at, "
-    "finished_at, error FROM jobs WHERE id = ?1";
-constexpr const char* kFindStages =
-    "SELECT stage, seconds, fraction FROM job_stages WHERE job_id = ?1 ORDER BY position";
-constexpr const char* kFindWarnings =
-    "SELECT message FROM job_warnings WHERE job_id = ?1 ORDER BY position";
-constexpr const char* kCountAhead = "SELECT count(*) FROM jobs WHERE state = 'queued' AND id < ?1";
-constexpr const char* kFindState = "SELECT state, claim FROM jobs WHERE id = ?1";
-constexpr const char* kFindQueued =
-    "SELECT id, claim, trial_id, settings FROM jobs WHERE state = 'queued' ORDER BY id LIMIT 1";
-constexpr const char* kClaim =
-    "UPDATE jobs SET state = 'running', claim = claim + 1, started_at = ?2, finished_at = NULL "
-    "WHERE id = ?1";
-constexpr const char* kClearStages = "DELETE FROM job_stages WHERE job_id = ?1";
-constexpr const char* kClearWarnings = "DELETE FROM job_warnings WHERE job_id = ?1";
-constexpr const char* kPutStage =
-    "INSERT INTO job_stages (job_id, position, stage, seconds, fraction) "
-    "VALUES (?1, ?2, ?3, ?4, ?5) ON CONFLICT (job_id, position) DO UPDATE "
-    "SET stage = excluded.stage, seconds = excluded.seconds, fraction = excluded.fraction";
-constexpr const char* kAddWarning =
-    "INSERT INTO job_warnings (job_id, position, message) "
-    "SELECT ?1, count(*), ?2 FROM job_warnings WHERE job_id = ?1";
-constexpr const char* kChangeState =
-    "UPDATE jobs SET state = ?2, finished_at = ?3, error = ?4, deaths = deaths + ?5 "
-    "WHERE id = ?1";
-constexpr const char* kRequestCancel = "UPDATE jobs SET cancel_requested = 1 WHERE id = ?1";
-constexpr const char* kFindRunning =
-    "SELECT id, claim, cancel_requested, deaths FROM jobs WHERE state = 'running' ORDER BY id";
-constexpr const char* kAddResult =
-    "INSERT INTO results (job_id, kind, name, size, sha256, bytes) VALUES (?1, ?2, ?3, ?4, ?5, ?6)";
-constexpr const char* kReadResult =
-    "SELECT bytes, size, sha256 FROM results WHERE job_id = ?1 AND kind = ?2 AND name = ?3";
-constexpr const char* kListFiles =
-    "SELECT name, size, sha256 FROM results WHERE job_id = ?1 AND kind = 'file' ORDER BY name";
+constexpr JobState kAllStates[] = {JobState::kQueued,
+                                   JobState::kRunning,
+                                   JobState::kSucceeded,
+                                   JobState::kFailed,
+                                   JobState::kCancelled};
 
-const char* kindName(ResultKind kind) {
-  switch (kind) {
-    case ResultKind::kFile:
-      return "file";
-    case ResultKind::kTime:
-      return "time";
-    case ResultKind::kCycle:
-      return "cycle";
-    case ResultKind::kSummary:
-      return "summary";
+void requireKnownState(const std::string& name) {
+  const bool is_known = std::any_of(std::begin(kAllStates), std::end(kAllStates), [&](auto state) {
+    return name == api::jobStateName(state);
+  });
+  require(name.empty() || is_known,
+          ErrorCode::kRequestField,
+          "'" + name + "' is no state; there are queued, running, succeeded, failed and cancelled",
+          {"", 0, 0, "state"});
+}
+
+// One pass over the queue for a whole page.
+void countAheadOfAll(Connection& db, std::vector<api::JobView>& jobs) {
+  const auto newest = std::find_if(jobs.begin(), jobs.end(), [](const api::JobView& job) {
+    return job.state == JobState::kQueued;
+  });
+  if (newest == jobs.end()) {
+    return;
   }
-  return "";
-}
-
-struct Standing {
-  JobState state;
-  std::int64_t claim;
-};
-
-Standing findStanding(Connection& db, const std::string& job_id) {
-  Statement row = db.prepare(kFindState);
-  require(row.bind(1, job_id).step(),
-          ErrorCode::kJobNotFound,
-          "there is no job '" + job_id + "'",
-          {"", 0, 0, job_id});
-  return {api::findJobState(row.text(0)), row.integer(1)};
-}
-
-bool holds(Connection& db, const JobTicket& ticket) {
-  const Standing standing = findStanding(db, ticket.job_id);
-  return standing.state == JobState::kRunning && standing.claim == ticket.claim;
-}
-
-std::vector<api::StageTiming> findStages(Connection& db, const std::string& job_id) {
-  std::vector<api::StageTiming> stages;
-  Statement rows = db.prepare(kFindStages);
-  rows.bind(1, job_id);
+  std::vector<std::string> queue;
+  Statement rows = db.prepare(sql::kListQueued);
+  rows.bind(1, newest->id);
   while (rows.step()) {
-    stages.push_back({rows.text(0), rows.real(1), rows.real(2)});
+    queue.push_back(rows.text(0));
   }
-  return stages;
-}
-
-std::vector<std::string> findWarnings(Connection& db, const std::string& job_id) {
-  std::vector<std::string> warnings;
-  Statement rows = db.prepare(kFindWarnings);
-  rows.bind(1, job_id);
-  while (rows.step()) {
-    warnings.push_back(rows.text(0));
+  for (api::JobView& job : jobs) {
+    if (job.state == JobState::kQueued) {
+      job.jobs_ahead = std::lower_bound(queue.begin(), queue.end(), job.id) - queue.begin();
+    }
   }
-  return warnings;
-}
-
-std::int64_t countAhead(Connection& db, const std::string& job_id) {
-  Statement row = db.prepare(kCountAhead);
-  row.bind(1, job_id).step();
-  return row.integer(0);
-}
-
-api::JobView findRow(Connection& db, const std::string& job_id) {
-  Statement row = db.prepare(kFindJob);
-  require(row.bind(1, job_id).step(),
-          ErrorCode::kJobNotFound,
-          "there is no job '" + job_id + "'",
-          {"", 0, 0, job_id});
-  api::JobView job;
-  job.id = job_id;
-  job.trial_id = row.text(0);
-  job.settings_name = row.text(1);
-  job.state = api::findJobState(row.text(2));
-  job.attempt = static_cast<int>(row.integer(3));
-  job.cancel_requested = row.integer(4) != 0;
-  job.submitted_at = row.integer(5);
-  job.started_at = row.optionalInteger(6);
-  job.finished_at = row.optionalInteger(7);
-  job.error = row.optionalText(8);
-  return job;
-}
-
-void addResults(Connection& db, const std::string& job_id, const std::vector<ResultItem>& results) {
-  for (const ResultItem& item : results) {
-    db.prepare(kAddResult)
-        .bind(1, job_id)
-        .bind(2, std::string(kindName(item.kind)))
-        .bind(3, item.name)
-        .bind(4, static_cast<std::int64_t>(item.bytes.size()))
-        .bind(5, calcSha256(item.bytes))
-        .bindBytes(6, item.bytes)
-        .run();
-  }
-}
-
-std::string describeAbandoned() {
-  return api::renderErrorObject(Error(ErrorCode::kJobAbandoned,
-                                      "the service died " + std::to_string(JobStore::kMaxDeaths) +
-                                          " times while it ran this job; it is not tried again"));
 }
 
 }  // namespace
 
-std::string JobStore::submit(const std::string& trial_id,
-                             const std::string& settings_name,
-                             const std::string& settings_json) {
-  Connection& db = database_.connection();
-  Transaction transaction(db, database_.writers());
-  require(db.prepare(kTrialExists).bind(1, trial_id).step(),
-          ErrorCode::kTrialNotFound,
-          "there is no trial '" + trial_id + "'",
-          {"", 0, 0, "trial"});
-  std::string job_id = makeId("job_");
-  db.prepare(kAddJob)
-      .bind(1, job_id)
-      .bind(2, trial_id)
-      .bind(3, settings_name)
-      .bind(4, settings_json)
-      .bind(5, nowMilliseconds())
-      .run();
-  transaction.commit();
-  return job_id;
+void JobStore::announce(const std::vector<JobChange>& changes) const {
+  if (listener_) {
+    for (const JobChange& change : changes) {
+      listener_(change);
+    }
+  }
 }
 
-api::JobView JobStore::find(const std::string& job_id) {
-  Connection& db = database_.connection();
-  api::JobView job = findRow(db, job_id);
-  job.stages = findStages(db, job_id);
-  job.warnings = findWarnings(db, job_id);
+std::string JobStore::submit(const NewJob& job, const Quota& quota) {
+  const AddedJob added =
+      database_.write([&](Connection& db) { return addJob(db, job, "", quota); });
+  announce(added.changes);
+  return added.id;
+}
+
+api::JobView JobStore::find(const std::string& tenant, const std::string& job_id) {
+  const ReadTransaction db = database_.read();
+  Statement row = db->prepare(sql::kFindJob);
+  if (!row.bind(1, job_id).bind(2, tenant).step()) {
+    throw jobNotFound(job_id);
+  }
+  api::JobView job = readJobRow(row);
+  completeJob(*db, job);
+  Statement settings = db->prepare(sql::kFindSettings);
+  settings.bind(1, job_id).step();
+  job.settings_json = settings.text(0);
   if (job.state == JobState::kQueued) {
-    job.jobs_ahead = countAhead(db, job_id);
+    Statement ahead = db->prepare(sql::kCountAhead);
+    ahead.bind(1, job_id).step();
+    job.jobs_ahead = ahead.integer(0);
   }
   return job;
 }
 
-std::optional<ClaimedJob> JobStore::claimNext() {
-  Connection& db = database_.connection();
-  Transaction transaction(db, database_.writers());
-  ClaimedJob job;
+api::Page<api::JobView> JobStore::list(const std::string& tenant,
+                                       const api::ListFilter& filter,
+                                       const api::PageRequest& page) {
+  requireKnownState(filter.state);
+  ListQuery query(sql::kSelectJobs, tenant, kJobPrefix);
+  query.where("study_id =", filter.study_id)
+      .where("trial_id =", filter.trial_id)
+      .whereNonEmpty("subject", filter.subject)
+      .whereNonEmpty("label", filter.label)
+      .where("state =", filter.state)
+      .between(filter.created_after, filter.created_before)
+      .page(page);
+  std::vector<api::JobView> jobs;
+  const ReadTransaction db = database_.read();
   {
-    Statement row = db.prepare(kFindQueued);
-    if (!row.step()) {
-      return std::nullopt;
-    }
-    job = {{row.text(0), row.integer(1) + 1}, row.text(2), row.text(3)};
-  }
-  db.prepare(kClaim).bind(1, job.ticket.job_id).bind(2, nowMilliseconds()).run();
-  db.prepare(kClearStages).bind(1, job.ticket.job_id).run();
-  db.prepare(kClearWarnings).bind(1, job.ticket.job_id).run();
-  transaction.commit();
-  return job;
-}
-
-bool JobStore::saveProgress(const JobTicket& ticket,
-                            const std::vector<api::StageTiming>& stages,
-                            const std::vector<std::string>& new_warnings) {
-  Connection& db = database_.connection();
-  Transaction transaction(db, database_.writers());
-  if (!holds(db, ticket)) {
-    return false;
-  }
-  std::int64_t position = 0;
-  for (const api::StageTiming& stage : stages) {
-    db.prepare(kPutStage)
-        .bind(1, ticket.job_id)
-        .bind(2, position++)
-        .bind(3, stage.stage)
-        .bind(4, stage.seconds)
-        .bind(5, stage.fraction)
-        .run();
-  }
-  for (const std::string& message : new_warnings) {
-    db.prepare(kAddWarning).bind(1, ticket.job_id).bind(2, message).run();
-  }
-  transaction.commit();
-  return true;
-}
-
-// Within the caller's transaction.
-bool JobStore::change(Connection& db, const JobTicket& ticket, const Change& change) {
-  const Standing standing = findStanding(db, ticket.job_id);
-  if (standing.claim != ticket.claim || !isAllowedChange(standing.state, change.to)) {
-    return false;
-  }
-  Statement update = db.prepare(kChangeState);
-  update.bind(1, ticket.job_id).bind(2, std::string(api::jobStateName(change.to)));
-  if (api::isFinal(change.to)) {
-    update.bind(3, nowMilliseconds());
-  }
-  update.bind(4, change.error).bind(5, std::int64_t{change.died ? 1 : 0}).run();
-  return true;
-}
-
-bool JobStore::changeAlone(const JobTicket& ticket, const Change& wanted) {
-  Connection& db = database_.connection();
-  Transaction transaction(db, database_.writers());
-  const bool changed = change(db, ticket, wanted);
-  transaction.commit();
-  return changed;
-}
-
-bool JobStore::succeed(const JobTicket& ticket, const std::vector<ResultItem>& results) {
-  Connection& db = database_.connection();
-  Transaction transaction(db, database_.writers());
-  if (!change(db, ticket, {JobState::kSucceeded, std::nullopt})) {
-    return false;
-  }
-  addResults(db, ticket.job_id, results);
-  transaction.commit();
-  return true;
-}
-
-bool JobStore::fail(const JobTicket& ticket, const std::string& error_json) {
-  return changeAlone(ticket, {JobState::kFailed, error_json});
-}
-
-bool JobStore::cancelRunning(const JobTicket& ticket) {
-  return changeAlone(ticket, {JobState::kCancelled, std::nullopt});
-}
-
-bool JobStore::requeue(const JobTicket& ticket) {
-  return changeAlone(ticket, {JobState::kQueued, std::nullopt});
-}
-
-void JobStore::requestCancel(const std::string& job_id) {
-  Connection& db = database_.connection();
-  Transaction transaction(db, database_.writers());
-  const Standing standing = findStanding(db, job_id);
-  if (standing.state == JobState::kCancelled) {
-    return;
-  }
-  require(!api::isFinal(standing.state),
-          ErrorCode::kJobState,
-          std::string("the job has already ") + api::jobStateName(standing.state),
-          {"", 0, 0, job_id});
-  db.prepare(kRequestCancel).bind(1, job_id).run();
-  if (standing.state == JobState::kQueued) {
-    change(db, {job_id, standing.claim}, {JobState::kCancelled, std::nullopt});
-  }
-  transaction.commit();
-}
-
-Recovery JobStore::recover() {
-  struct Orphan {
-    JobTicket ticket;
-    bool cancel_requested;
-    std::int64_t deaths;
-  };
-  Connection& db = database_.connection();
-  Transaction transaction(db, database_.writers());
-  std::vector<Orphan> orphans;
-  {
-    Statement rows = db.prepare(kFindRunning);
+    Statement rows = query.run(*db);
     while (rows.step()) {
-      orphans.push_back({{rows.text(0), rows.integer(1)}, rows.integer(2) != 0, rows.integer(3)});
+      jobs.push_back(readJobRow(rows));
     }
   }
-  Recovery recovery;
-  for (const Orphan& orphan : orphans) {
-    if (orphan.cancel_requested) {
-      recovery.cancelled += change(db, orphan.ticket, {JobState::kCancelled, {}, true}) ? 1 : 0;
-    } else if (orphan.deaths + 1 >= kMaxDeaths) {
-      recovery.abandoned +=
-          change(db, orphan.ticket, {JobState::kFailed, describeAbandoned(), true}) ? 1 : 0;
-    } else {
-      recovery.requeued += change(db, orphan.ticket, {JobState::kQueued, {}, true}) ? 1 : 0;
-    }
+  api::Page<api::JobView> found = makePage(std::move(jobs), page);
+  for (api::JobView& job : found.items) {
+    completeJob(*db, job);
   }
-  transaction.commit();
-  return recovery;
+  countAheadOfAll(*db, found.items);
+  return found;
 }
 
-void JobStore::requireSucceeded(const std::string& job_id) {
-  const Standing standing = findStanding(database_.connection(), job_id);
-  require(standing.state == JobState::kSucceeded,
-          ErrorCode::kResultNotReady,
-          std::string("results exist when the job has succeeded; it is ") +
-              api::jobStateName(standing.state),
-          {"", 0, 0, job_id});
+void JobStore::remove(const std::string& tenant, const std::string& job_id) {
+  const std::string study_id = database_.writeBulk([&](Connection& db) {
+    const JobStanding standing = requireJob(db, tenant, job_id);
+    require(api::isFinal(standing.state),
+            ErrorCode::kJobState,
+            std::string("the job is ") + api::jobStateName(standing.state) +
+                "; cancel it before it is deleted",
+            {"", 0, 0, "state"});
+    dropJob(db, job_id, standing);
+    return standing.study_id;
+  });
+  database_.wipeDeleted();
+  announce({{lastChange(), job_id, study_id}});
 }
 
-std::string JobStore::readResult(const std::string& job_id,
-                                 ResultKind kind,
-                                 const std::string& name) {
-  requireSucceeded(job_id);
-  Statement row = database_.connection().prepare(kReadResult);
-  row.bind(1, job_id).bind(2, std::string(kindName(kind))).bind(3, name);
-  require(row.step(),
-          ErrorCode::kResultNotFound,
-          "this job has no result '" + name + "' of this kind",
-          {"", 0, 0, name});
-  std::string bytes = row.bytes(0);
-  require(calcSha256(bytes) == row.text(2),
-          ErrorCode::kStorage,
-          "a stored result does not have its hash any more",
-          {"", 0, 0, name});
-  return bytes;
+void JobStore::requestCancel(const std::string& tenant, const std::string& job_id) {
+  std::vector<JobChange> changes;
+  database_.write([&](Connection& db) {
+    const JobStanding standing = requireJob(db, tenant, job_id);
+    require(standing.state != JobState::kSucceeded && standing.state != JobState::kFailed,
+            ErrorCode::kJobState,
+            std::string("the job has already ") + api::jobStateName(standing.state),
+            {"", 0, 0, "state"});
+    cancelJob(db, job_id, standing, changes);
+  });
+  announce(changes);
 }
 
-std::vector<api::FileView> JobStore::listFiles(const std::string& job_id) {
-  requireSucceeded(job_id);
-  std::vector<api::FileView> files;
-  Statement rows = database_.connection().prepare(kListFiles);
-  rows.bind(1, job_id);
+std::vector<api::JobEvent> JobStore::listEvents(const std::string& tenant,
+                                                const std::string& job_id,
+                                                std::int64_t after,
+                                                int limit) {
+  const ReadTransaction db = database_.read();
+  if (!db->prepare(sql::kJobExists).bind(1, job_id).bind(2, tenant).step()) {
+    throw jobNotFound(job_id);
+  }
+  std::vector<api::JobEvent> events;
+  Statement rows = db->prepare(sql::kListEvents);
+  rows.bind(1, job_id).bind(2, after).bind(3, std::int64_t{limit});
   while (rows.step()) {
-    files.push_back({rows.text(0), rows.integer(1), rows.text(2)});
+    events.push_back({rows.integer(0), rows.integer(1), rows.text(2), rows.text(3)});
   }
-  return files;
+  return events;
 }
 
-api::FileContent JobStore::readFile(const std::string& job_id, const std::string& name) {
-  std::string bytes = readResult(job_id, ResultKind::kFile, name);
-  const auto size = static_cast<std::int64_t>(bytes.size());
-  std::string hash = calcSha256(bytes);
-  return {{name, size, std::move(hash)}, std::move(bytes)};
+std::int64_t JobStore::lastChange() {
+  const ReadTransaction db = database_.read();
+  Statement row = db->prepare(sql::kFindCount);
+  row.bind(1, "jobs").step();
+  return row.integer(0);
+}
+
+std::vector<JobChange> JobStore::listChanges(std::int64_t since) {
+  std::vector<JobChange> changes;
+  const ReadTransaction db = database_.read();
+  Statement rows = db->prepare(sql::kListChanges);
+  rows.bind(1, since);
+  while (rows.step()) {
+    changes.push_back({rows.integer(0), rows.text(1), rows.text(2)});
+  }
+  return changes;
+}
+
+QueueStatistics JobStore::calcStatistics() {
+  QueueStatistics statistics;
+  for (const JobState state : kAllStates) {
+    statistics.jobs[api::jobStateName(state)] = 0;
+  }
+  const ReadTransaction db = database_.read();
+  Statement counts = db->prepare(sql::kCountByState);
+  while (counts.step()) {
+    statistics.jobs[counts.text(0)] = counts.integer(1);
+  }
+  Statement lapsed = db->prepare(sql::kCountLapsed);
+  lapsed.bind(1, nowMilliseconds()).step();
+  statistics.depth = statistics.jobs["queued"] + lapsed.integer(0);
+  Statement oldest = db->prepare(sql::kFindOldestQueuedTime);
+  if (oldest.step()) {
+    statistics.oldest_queued_at = oldest.integer(0);
+  }
+  return statistics;
+}
+
+std::vector<StageEstimate> JobStore::calcStageEstimates() {
+  std::vector<StageEstimate> estimates;
+  const ReadTransaction db = database_.read();
+  Statement rows = db->prepare(sql::kEstimateStages);
+  while (rows.step()) {
+    estimates.push_back({rows.text(0), rows.real(1), rows.real(2)});
+  }
+  return estimates;
+}
+
+std::vector<OwnedId> JobStore::listFinished(std::int64_t time, int limit) {
+  std::vector<OwnedId> jobs;
+  const ReadTransaction db = database_.read();
+  Statement rows = db->prepare(sql::kListFinished);
+  rows.bind(1, time).bind(2, std::int64_t{limit});
+  while (rows.step()) {
+    jobs.push_back({rows.text(0), rows.text(1)});
+  }
+  return jobs;
 }
 
 }  // namespace gaitmill

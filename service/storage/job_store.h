@@ -19,6 +19,8 @@
 
 namespace gaitmill {
 
+struct JobStanding;
+
 /// The right to write about a running job: its id and the number of the claim. Once another claim
 /// exists, the job has been given back, or it has left the running state, nothing can be written
 /// with this one.
@@ -234,6 +236,13 @@ class JobStore {
   std::vector<OwnedId> listFinished(std::int64_t time, int limit);
 
  private:
+  enum class Size { kSmall, kBulk };
+  using Changes = std::vector<JobChange>;
+  using TicketWork = std::function<void(Connection&, const JobStanding&, Changes&)>;
+
+  /// Does the work within a write if the ticket is good, and announces the changes.
+  bool writeAs(const JobTicket& ticket, Size size, const TicketWork& work);
+
   Database& database_;
   JobListener listener_;
 };

@@ -1,181 +1,173 @@
 #include "service/storage/sqlite.h"
 
+#include <cerrno>
+#include <functional>
+#include <map>
 #include <utility>
 
 #include <sqlite3.h>
 
 #include "core/base/error.h"
+#include "service/storage/dialect.h"
+#include "service/storage/sqlite_error.h"
 
 namespace gaitmill {
 
 namespace {
 
-constexpr int kBusyMilliseconds = 10'000;  // for another process, a backup for instance
+constexpr int kBusyMilliseconds = 10'000;  // for another process, a worker for instance
 
-constexpr const char* kPragmas =
-    "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;"
-    "PRAGMA temp_store = MEMORY; PRAGMA trusted_schema = OFF";
-
-[[noreturn]] void fail(sqlite3* handle, const std::string& step) {
-  throw Error(ErrorCode::kStorage, step + ": " + sqlite3_errmsg(handle));
+bool meansFull(sqlite3* handle) {
+  constexpr int kPrimary = 0xff;
+  const int code = sqlite3_errcode(handle) & kPrimary;
+  if (code == SQLITE_FULL) {
+    return true;
+  }
+  const int system = sqlite3_system_errno(handle);
+  return (code == SQLITE_IOERR || code == SQLITE_CANTOPEN) &&
+         (system == ENOSPC || system == EDQUOT);
 }
 
-void requireOk(int result, sqlite3_stmt* statement, const char* step) {
-  if (result != SQLITE_OK) {
-    fail(sqlite3_db_handle(statement), step);
+class SqliteStatement final : public PreparedStatement {
+ public:
+  SqliteStatement(sqlite3* handle, sqlite3_stmt* statement)
+      : handle_(handle), statement_(statement) {}
+  ~SqliteStatement() override { sqlite3_finalize(statement_); }
+  SqliteStatement(const SqliteStatement&) = delete;
+  SqliteStatement& operator=(const SqliteStatement&) = delete;
+
+  void bindNull(int parameter) override { requireOk(sqlite3_bind_null(statement_, parameter)); }
+  void bindInteger(int parameter, std::int64_t value) override {
+    requireOk(sqlite3_bind_int64(statement_, parameter, value));
+  }
+  void bindReal(int parameter, double value) override {
+    requireOk(sqlite3_bind_double(statement_, parameter, value));
+  }
+  void bindText(int parameter, std::string_view text) override {
+    const char* data = text.data() == nullptr ? "" : text.data();
+    requireOk(sqlite3_bind_text64(
+        statement_, parameter, data, text.size(), SQLITE_TRANSIENT, SQLITE_UTF8));
+  }
+  void bindBytes(int parameter, std::string_view bytes) override {
+    const char* data = bytes.data() == nullptr ? "" : bytes.data();
+    requireOk(sqlite3_bind_blob64(statement_, parameter, data, bytes.size(), SQLITE_STATIC));
+  }
+  bool step() override {
+    const int result = sqlite3_step(statement_);
+    if (result != SQLITE_ROW && result != SQLITE_DONE) {
+      throwSqliteError(handle_, sqlite3_sql(statement_));
+    }
+    return result == SQLITE_ROW;
+  }
+  void reset() noexcept override {
+    sqlite3_reset(statement_);
+    sqlite3_clear_bindings(statement_);
+  }
+  bool isNull(int column) const override {
+    return sqlite3_column_type(statement_, column) == SQLITE_NULL;
+  }
+  std::int64_t integer(int column) const override {
+    return sqlite3_column_int64(statement_, column);
+  }
+  double real(int column) const override { return sqlite3_column_double(statement_, column); }
+  std::string_view bytes(int column) const override {
+    const auto* data = static_cast<const char*>(sqlite3_column_blob(statement_, column));
+    const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_, column));
+    return data == nullptr ? std::string_view() : std::string_view(data, size);
+  }
+
+ private:
+  void requireOk(int result) {
+    if (result != SQLITE_OK) {
+      throwSqliteError(handle_, "binding a parameter");
+    }
+  }
+
+  sqlite3* handle_;
+  sqlite3_stmt* statement_;
+};
+
+class SqliteConnection final : public Connection {
+ public:
+  explicit SqliteConnection(const SqliteOptions& options);
+  ~SqliteConnection() override {
+    prepared_.clear();
+    sqlite3_close(handle_);
+  }
+  SqliteConnection(const SqliteConnection&) = delete;
+  SqliteConnection& operator=(const SqliteConnection&) = delete;
+
+  Statement prepare(std::string_view sql) override;
+  void runScript(const char* sql) override;
+  std::int64_t changes() const override { return sqlite3_changes64(handle_); }
+  bool isInTransaction() const override { return sqlite3_get_autocommit(handle_) == 0; }
+
+ private:
+  void configure(const SqliteOptions& options);
+
+  sqlite3* handle_ = nullptr;
+  std::map<std::string, std::unique_ptr<SqliteStatement>, std::less<>> prepared_;
+};
+
+SqliteConnection::SqliteConnection(const SqliteOptions& options) {
+  const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
+  const char* vfs = options.vfs.empty() ? nullptr : options.vfs.c_str();
+  try {
+    if (sqlite3_open_v2(options.path.c_str(), &handle_, flags, vfs) != SQLITE_OK) {
+      throwSqliteError(handle_, "opening the database");
+    }
+    configure(options);
+  } catch (Error& error) {
+    sqlite3_close(handle_);
+    error.setFile(options.path);
+    throw;
+  }
+}
+
+void SqliteConnection::configure(const SqliteOptions& options) {
+  sqlite3_extended_result_codes(handle_, 1);
+  sqlite3_busy_timeout(handle_, kBusyMilliseconds);
+  runScript(dialect::kConnectionSettings);
+  if (options.max_size > 0) {
+    Statement page_size = prepare("PRAGMA page_size");
+    page_size.step();
+    const std::int64_t pages = options.max_size / page_size.integer(0);
+    runScript(("PRAGMA max_page_count = " + std::to_string(pages)).c_str());
+  }
+}
+
+Statement SqliteConnection::prepare(std::string_view sql) {
+  auto found = prepared_.find(sql);
+  if (found == prepared_.end()) {
+    sqlite3_stmt* statement = nullptr;
+    if (sqlite3_prepare_v3(handle_,
+                           sql.data(),
+                           static_cast<int>(sql.size()),
+                           SQLITE_PREPARE_PERSISTENT,
+                           &statement,
+                           nullptr) != SQLITE_OK) {
+      throwSqliteError(handle_, std::string(sql));
+    }
+    found = prepared_.emplace(sql, std::make_unique<SqliteStatement>(handle_, statement)).first;
+  }
+  return Statement(*found->second);
+}
+
+void SqliteConnection::runScript(const char* sql) {
+  if (sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr) != SQLITE_OK) {
+    throwSqliteError(handle_, "running a script");
   }
 }
 
 }  // namespace
 
-Statement::~Statement() {
-  if (prepared_ != nullptr) {
-    sqlite3_reset(prepared_);
-    sqlite3_clear_bindings(prepared_);
-  }
+void throwSqliteError(sqlite3* handle, const std::string& step) {
+  throw Error(meansFull(handle) ? ErrorCode::kStorageFull : ErrorCode::kStorage,
+              step + ": " + sqlite3_errmsg(handle));
 }
 
-Statement::Statement(Statement&& other) noexcept
-    : prepared_(std::exchange(other.prepared_, nullptr)) {}
-
-Statement& Statement::bind(int parameter, std::int64_t value) {
-  requireOk(sqlite3_bind_int64(prepared_, parameter, value), prepared_, "binding an integer");
-  return *this;
-}
-
-Statement& Statement::bind(int parameter, double value) {
-  requireOk(sqlite3_bind_double(prepared_, parameter, value), prepared_, "binding a number");
-  return *this;
-}
-
-Statement& Statement::bind(int parameter, const std::string& text) {
-  requireOk(sqlite3_bind_text64(
-                prepared_, parameter, text.data(), text.size(), SQLITE_TRANSIENT, SQLITE_UTF8),
-            prepared_,
-            "binding a text");
-  return *this;
-}
-
-Statement& Statement::bind(int parameter, const std::optional<std::string>& text) {
-  if (text) {
-    return bind(parameter, *text);
-  }
-  requireOk(sqlite3_bind_null(prepared_, parameter), prepared_, "binding nothing");
-  return *this;
-}
-
-Statement& Statement::bindBytes(int parameter, const std::string& bytes) {
-  requireOk(sqlite3_bind_blob64(prepared_, parameter, bytes.data(), bytes.size(), SQLITE_STATIC),
-            prepared_,
-            "binding bytes");
-  return *this;
-}
-
-bool Statement::step() {
-  const int result = sqlite3_step(prepared_);
-  if (result != SQLITE_ROW && result != SQLITE_DONE) {
-    fail(sqlite3_db_handle(prepared_), sqlite3_sql(prepared_));
-  }
-  return result == SQLITE_ROW;
-}
-
-void Statement::run() {
-  while (step()) {
-  }
-}
-
-std::int64_t Statement::integer(int column) const {
-  return sqlite3_column_int64(prepared_, column);
-}
-
-double Statement::real(int column) const {
-  return sqlite3_column_double(prepared_, column);
-}
-
-std::string Statement::text(int column) const {
-  return bytes(column);
-}
-
-std::string Statement::bytes(int column) const {
-  const auto* data = static_cast<const char*>(sqlite3_column_blob(prepared_, column));
-  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(prepared_, column));
-  return data == nullptr ? std::string() : std::string(data, size);
-}
-
-bool Statement::isNull(int column) const {
-  return sqlite3_column_type(prepared_, column) == SQLITE_NULL;
-}
-
-std::optional<std::int64_t> Statement::optionalInteger(int column) const {
-  return isNull(column) ? std::nullopt : std::optional(integer(column));
-}
-
-std::optional<std::string> Statement::optionalText(int column) const {
-  return isNull(column) ? std::nullopt : std::optional(text(column));
-}
-
-Connection::Connection(const std::string& path) {
-  const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
-  if (sqlite3_open_v2(path.c_str(), &handle_, flags, nullptr) != SQLITE_OK) {
-    const std::string reason = sqlite3_errmsg(handle_);
-    sqlite3_close(handle_);
-    throw Error(ErrorCode::kStorage, "opening the database: " + reason, {path, 0, 0, ""});
-  }
-  sqlite3_busy_timeout(handle_, kBusyMilliseconds);
-  try {
-    runScript(kPragmas);
-  } catch (Error& error) {
-    sqlite3_close(handle_);
-    error.setFile(path);
-    throw;
-  }
-}
-
-Connection::~Connection() {
-  for (const auto& [sql, statement] : prepared_) {
-    sqlite3_finalize(statement);
-  }
-  sqlite3_close(handle_);
-}
-
-Statement Connection::prepare(const char* sql) {
-  sqlite3_stmt*& statement = prepared_[sql];
-  if (statement == nullptr &&
-      sqlite3_prepare_v3(handle_, sql, -1, SQLITE_PREPARE_PERSISTENT, &statement, nullptr) !=
-          SQLITE_OK) {
-    fail(handle_, sql);
-  }
-  return Statement(statement);
-}
-
-void Connection::runScript(const char* sql) {
-  if (sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr) != SQLITE_OK) {
-    fail(handle_, "running a script");
-  }
-}
-
-int Connection::changes() const {
-  return sqlite3_changes(handle_);
-}
-
-Transaction::Transaction(Connection& connection, std::mutex& writers)
-    : turn_(writers), connection_(connection) {
-  connection_.prepare("BEGIN IMMEDIATE").run();
-}
-
-Transaction::~Transaction() {
-  if (open_) {
-    try {
-      connection_.prepare("ROLLBACK").run();
-    } catch (const Error&) {
-      // SQLite rolls back by itself after some errors; there is then nothing left to undo.
-    }
-  }
-}
-
-void Transaction::commit() {
-  connection_.prepare("COMMIT").run();
-  open_ = false;
+std::unique_ptr<Connection> openSqlite(const SqliteOptions& options) {
+  return std::make_unique<SqliteConnection>(options);
 }
 
 }  // namespace gaitmill

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <limits>
 #include <thread>
 
@@ -15,61 +16,124 @@ namespace {
 
 using nlohmann::json;
 
-constexpr Stage kStages[] = {
-    Stage::kScale, Stage::kIk, Stage::kRra, Stage::kId, Stage::kSo, Stage::kCmc};
+bool goesOn(const json& settings, Stage stage, double fraction, const PipelineEvents& events) {
+  return events.progress(stage, fraction) || settings.value("deaf", false);
+}
 
-void runStage(const json& settings, Stage stage, const PipelineEvents& events) {
+void requireGoingOn(const json& settings,
+                    Stage stage,
+                    double fraction,
+                    const PipelineEvents& events) {
+  require(goesOn(settings, stage, fraction, events), ErrorCode::kCancelled, "stopped");
+}
+
+void waitForGate(const json& settings, Stage stage, const PipelineEvents& events) {
+  if (!settings.contains("gate")) {
+    return;
+  }
+  const std::string gate = settings["gate"].get<std::string>() + "." + stageName(stage);
+  while (!std::filesystem::exists(gate)) {
+    requireGoingOn(settings, stage, 0.0, events);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
+
+void computeStage(const json& settings, Stage stage, const PipelineEvents& events) {
   const std::string name = stageName(stage);
+  waitForGate(settings, stage, events);
   if (settings.value("fail_at", "") == name) {
-    throw Error(ErrorCode::kInputMarkers, "markers are missing", {"walk.trc", 7, 3, "RASI"})
-        .addContext(name);
+    Where where{"walk.trc", 7, 3, "RASI"};
+    where.stage = name;
+    throw Error(ErrorCode::kInputMarkers, "markers are missing", where).addContext(name);
   }
   if (settings.value("crash_at", "") == name) {
     std::raise(SIGKILL);
   }
   const int steps = settings.value("steps", 4);
   for (int step = 0; step <= steps; ++step) {
-    const bool goes_on = events.progress(stage, static_cast<double>(step) / steps);
-    if (!goes_on && !settings.value("deaf", false)) {
-      throw Error(ErrorCode::kCancelled, "stopped");
-    }
+    requireGoingOn(settings, stage, static_cast<double>(step) / steps, events);
     std::this_thread::sleep_for(std::chrono::milliseconds(settings.value("step_ms", 0)));
+  }
+}
+
+StageOutcome makeOutcome(const TrialInput& input, Stage stage) {
+  StageOutcome outcome;
+  outcome.stage = stage;
+  const std::string name = stageName(stage);
+  outcome.checkpoint = "checkpoint of " + name;
+  outcome.files[name + ".txt"] = "what " + name + " leaves\n";
+  if (stage == Stage::kScale) {
+    outcome.files["scaled_model.osim"] = input.markers ? input.markers->bytes : "";
+  }
+  if (stage == Stage::kId) {
+    outcome.tables["moments"] = makeFakeTable("moments");
+  }
+  if (stage == Stage::kCmc) {
+    for (const char* table : {"moments", "activations", "forces", "kinematics", "residuals"}) {
+      outcome.tables[table] = makeFakeTable(table);
+    }
+    outcome.cycle_tables["moments"] = makeFakeTable("moments");
+  }
+  return outcome;
+}
+
+template <class Map>
+void mergeInto(Map& target, const Map& source) {
+  for (const auto& [name, value] : source) {
+    target[name] = value;
   }
 }
 
 PipelineResult runFake(const TrialInput& input,
                        const InputFile& settings_file,
-                       const PipelineEvents& events) {
+                       const PipelineEvents& events,
+                       const std::vector<std::string>& checkpoints) {
   const json settings = json::parse(settings_file.bytes);
-  if (settings.contains("warn")) {
-    events.warn(settings["warn"]);
-  }
-  for (const Stage stage : kStages) {
-    runStage(settings, stage, events);
-  }
   PipelineResult result;
-  result.files["scaled_model.osim"] = input.markers ? input.markers->bytes : "";
-  for (const char* name : {"moments", "activations", "forces", "kinematics", "residuals"}) {
-    result.tables[name] = makeFakeTable(name);
+  if (settings.contains("warn")) {
+    result.warnings.push_back(settings["warn"]);
+    if (checkpoints.empty() && events.warn) {
+      events.warn(settings["warn"]);
+    }
   }
-  result.cycle_tables["moments"] = makeFakeTable("moments");
+  for (int i = 0; i < kStageCount; ++i) {
+    const auto stage = static_cast<Stage>(i);
+    const StageOutcome outcome = makeOutcome(input, stage);
+    if (static_cast<std::size_t>(i) < checkpoints.size()) {
+      require(checkpoints[static_cast<std::size_t>(i)] == outcome.checkpoint,
+              ErrorCode::kCheckpointUnusable,
+              "not a checkpoint of this stage");
+    } else {
+      computeStage(settings, stage, events);
+      if (events.stage_done) {
+        events.stage_done(outcome);
+      }
+    }
+    mergeInto(result.files, outcome.files);
+    mergeInto(result.tables, outcome.tables);
+    mergeInto(result.cycle_tables, outcome.cycle_tables);
+  }
   result.summary_json =
       R"({"quality": {"moments": {"ankle_angle_r": {"rmse_nm": 0.25, "worst": "left"}}}})";
   return result;
 }
 
-void checkFakeSettings(const InputFile& settings) {
+void checkFakeInput(const TrialInput& input, const InputFile& settings) {
   const json object = json::parse(settings.bytes);
   require(!object.contains("nonsense"),
           ErrorCode::kSettingsUnknownField,
           "unknown field",
           {settings.name, 0, 0, "nonsense"});
+  require(input.markers || input.coordinates,
+          ErrorCode::kInputMissing,
+          "there are no markers",
+          {"", 0, 0, "markers"});
 }
 
 api::TrialView inspectFake(const api::TrialUpload& upload) {
   api::TrialView view;
   for (const auto& [part, file] : upload.files) {
-    require(!file.bytes.empty(), ErrorCode::kFileEmpty, "no bytes", {file.name, 1, 1, ""});
+    require(file.bytes->size() > 0, ErrorCode::kFileEmpty, "no bytes", {file.name, 1, 1, ""});
     api::UnderstoodFile understood;
     understood.part = part;
     understood.name = file.name;
@@ -82,6 +146,16 @@ api::TrialView inspectFake(const api::TrialUpload& upload) {
   return view;
 }
 
+// Documents are {"markers": […], …}.
+std::string readFakeDocument(const InputFile& document) {
+  const json object = json::parse(document.bytes, nullptr, false);
+  require(object.is_object() && object.contains("markers"),
+          ErrorCode::kModelXml,
+          "not such a document",
+          {document.name, 1, 1, ""});
+  return object.dump();
+}
+
 }  // namespace
 
 TimeSeries makeFakeTable(const std::string& name) {
@@ -92,9 +166,17 @@ TimeSeries makeFakeTable(const std::string& name) {
 }
 
 PipelineFunctions makeFakePipeline() {
-  return {runFake, checkFakeSettings, inspectFake, [](const TimeSeries& table, api::AngleUnit) {
-            return table.name + "\nversion=1\nendheader\n";
-          }};
+  PipelineFunctions functions;
+  functions.run = runFake;
+  functions.check_input = checkFakeInput;
+  functions.inspect = inspectFake;
+  functions.read_model = readFakeDocument;
+  functions.read_marker_set = readFakeDocument;
+  functions.encode_sto = [](const TimeSeries& table, api::AngleUnit) {
+    return table.name + "\nversion=1\nendheader\n";
+  };
+  functions.default_settings = R"({"steps": 4, "step_ms": 0})";
+  return functions;
 }
 
 }  // namespace gaitmill

@@ -1,0 +1,169 @@
+#include "service/job_archive.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+#include "service/job_input.h"
+#include "service/storage/sha256.h"
+#include "service/storage/table_codec.h"
+
+namespace gaitmill {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kCitation =
+    "Results computed by gaitmill (see provenance.json for the version).\n"
+    "\n"
+    "The method and the musculoskeletal model are those of\n"
+    "\n"
+    "  Rajagopal A, Dembia CL, DeMers MS, Delp DD, Hicks JL, Delp SL (2016). Full-body\n"
+    "  musculoskeletal model for muscle-driven simulation of human gait. IEEE Transactions on\n"
+    "  Biomedical Engineering 63(10):2068-2079. doi:10.1109/TBME.2016.2586891\n"
+    "\n"
+    "Please cite the paper when you publish results, and give the provenance hash, so that others\n"
+    "can tell which numbers came from which data, model, settings and code.\n";
+
+ZipEntry makeTextEntry(const std::string& name, std::string text) {
+  return {name, [text = std::move(text)] {
+            return api::makeByteSource(text);
+          }};
+}
+
+std::string calcHash(const api::ByteSource& bytes) {
+  constexpr std::size_t kPiece = std::size_t{1} << 20;
+  Sha256 hash;
+  for (std::uint64_t offset = 0; offset < bytes.size(); offset += kPiece) {
+    hash.update(bytes.read(offset, kPiece));
+  }
+  return hash.finish();
+}
+
+}  // namespace
+
+JobArchive::JobArchive(Stores& stores,
+                       const ShippedCatalog& shipped,
+                       JobComposer& composer,
+                       StoEncoder encode_sto,
+                       std::string folder)
+    : stores_(stores),
+      shipped_(shipped),
+      composer_(composer),
+      encode_sto_(std::move(encode_sto)),
+      folder_(std::move(folder)) {}
+
+api::FileContent JobArchive::make(const std::string& tenant, const std::string& job_id) {
+  const api::JobView job = stores_.jobs.find(tenant, job_id);
+  require(job.state == api::JobState::kSucceeded,
+          ErrorCode::kResultNotReady,
+          "the archive is there when the job has succeeded; it is " +
+              std::string(api::jobStateName(job.state)),
+          {"", 0, 0, job_id});
+  const std::lock_guard<std::mutex> lock(guard_);
+  const auto kept = std::find_if(kept_.begin(), kept_.end(), [&job_id](const auto& archive) {
+    return archive.first == job_id;
+  });
+  if (kept != kept_.end()) {
+    kept_.splice(kept_.begin(), kept_, kept);
+  } else {
+    kept_.emplace_front(job_id, build(tenant, job));
+    kept_.resize(std::min(kept_.size(), kKept));
+  }
+  return kept_.front().second;
+}
+
+api::FileContent JobArchive::build(const std::string& tenant, const api::JobView& job) {
+  std::vector<ZipEntry> entries;
+  addInputs(tenant, job, entries);
+  addResults(tenant, job, entries);
+  entries.push_back(makeTextEntry("settings.json", json::parse(job.settings_json).dump(2) + "\n"));
+  entries.push_back(makeTextEntry("provenance.json", renderOrigin(tenant, job)));
+  entries.push_back(makeTextEntry("CITATION", kCitation));
+  api::FileContent archive;
+  archive.bytes = makeZip(std::move(entries), folder_);
+  archive.view.name = job.id + ".zip";
+  archive.view.size = static_cast<std::int64_t>(archive.bytes->size());
+  archive.view.sha256 = calcHash(*archive.bytes);
+  return archive;
+}
+
+void JobArchive::addInputs(const std::string& tenant,
+                           const api::JobView& job,
+                           std::vector<ZipEntry>& entries) {
+  ClaimedJob claimed;
+  claimed.tenant = tenant;
+  claimed.trial_id = job.trial_id;
+  claimed.model_id = job.model_id;
+  claimed.settings_json = job.settings_json;
+  for (const auto& [part, file] : readJobInput(stores_, shipped_, claimed).parts) {
+    entries.push_back({"inputs/" + part + "/" + makeArchiveName(file.name), [bytes = file.bytes] {
+                         return bytes;
+                       }});
+  }
+}
+
+void JobArchive::addResults(const std::string& tenant,
+                            const api::JobView& job,
+                            std::vector<ZipEntry>& entries) {
+  for (const ResultInfo& result : stores_.jobs.listResults(tenant, job.id)) {
+    const auto read = [this, tenant, id = job.id, result] {
+      return api::makeByteSource(
+          stores_.jobs.readResult(tenant, id, result.kind, result.name).bytes);
+    };
+    switch (result.kind) {
+      case ResultKind::kFile:
+        entries.push_back({"files/" + makeArchiveName(result.name), read});
+        break;
+      case ResultKind::kSummary:
+        if (result.name == "quality") {
+          entries.push_back({"results/quality.json", read});
+        }
+        break;
+      case ResultKind::kTime:
+      case ResultKind::kCycle:
+        addTable(tenant, job.id, result, entries);
+        break;
+    }
+  }
+}
+
+void JobArchive::addTable(const std::string& tenant,
+                          const std::string& job_id,
+                          const ResultInfo& result,
+                          std::vector<ZipEntry>& entries) {
+  const bool is_cycle = result.kind == ResultKind::kCycle;
+  const api::TableAxis axis = is_cycle ? api::TableAxis::kCycle : api::TableAxis::kTime;
+  const std::string name = "results/" + makeArchiveName(result.name) + (is_cycle ? "_cycle" : "");
+  const auto add = [&](const char* extension, const auto& render) {
+    entries.push_back(
+        {name + extension, [this, tenant, job_id, result, render] {
+           return api::makeByteSource(render(decodeTable(
+               stores_.jobs.readResult(tenant, job_id, result.kind, result.name).bytes)));
+         }});
+  };
+  add(".csv", [axis](const TimeSeries& table) { return api::renderTableCsv(table, axis); });
+  add(".json", [axis](const TimeSeries& table) { return api::renderTableJson(table, axis); });
+  if (!is_cycle) {
+    add(".sto",
+        [this](const TimeSeries& table) { return encode_sto_(table, api::AngleUnit::kRadians); });
+  }
+}
+
+// The ingredients of the job's provenance. Another version of gaitmill than the one that took the
+// job cannot name that one's sources; the hash then stands alone.
+std::string JobArchive::renderOrigin(const std::string& tenant, const api::JobView& job) {
+  const Provenance provenance = composer_.findProvenance(tenant, job);
+  json origin = json::parse(renderProvenance(provenance));
+  if (calcProvenance(provenance) != job.provenance) {
+    origin["code"] = nullptr;
+  }
+  origin.erase("settings");
+  origin["provenance_sha256"] = job.provenance;
+  origin["settings_file"] = "settings.json";
+  return origin.dump(2) + "\n";
+}
+
+}  // namespace gaitmill
