@@ -7,6 +7,8 @@
 
 namespace gaitmill {
 
+enum class Foot { kUnknown, kRight, kLeft };
+
 /// One force that acts on one body over time: force on the subject, its point of application and
 /// the free torque, all in ground [N, m, N.m]. Where the plate is unloaded, force and torque are
 /// exactly zero and the point is meaningless (whatever the file said).

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -34,6 +35,20 @@ std::string readFile(const std::string& path, std::size_t maximum_size) {
   require(!file.bad(), ErrorCode::kFileUnreadable, "reading the file failed", where);
   requireData(bytes, path);
   return bytes;
+}
+
+std::vector<std::string> listFiles(const std::string& folder, std::string_view ending) {
+  std::vector<std::string> paths;
+  std::error_code unreadable;
+  for (const auto& entry : fs::directory_iterator(folder, unreadable)) {
+    const std::string path = entry.path().string();
+    if (entry.is_regular_file() && path.size() > ending.size() &&
+        path.compare(path.size() - ending.size(), ending.size(), ending) == 0) {
+      paths.push_back(path);
+    }
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
 }
 
 void writeFile(const std::string& path, std::string_view bytes) {

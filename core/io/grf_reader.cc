@@ -396,6 +396,16 @@ std::vector<std::string> findForceFamilies(const std::vector<std::string>& label
   return names;
 }
 
+std::vector<Foot> findFamilyFeet(const std::vector<std::string>& labels) {
+  std::vector<Foot> feet;
+  for (const Family& family : findFamilies(labels)) {
+    feet.push_back(family.side == "r"   ? Foot::kRight
+                   : family.side == "l" ? Foot::kLeft
+                                        : Foot::kUnknown);
+  }
+  return feet;
+}
+
 GroundReaction readGroundReaction(const TableFile& file, const GrfOptions& options) {
   return GrfBuilder(file, options).build();
 }

@@ -32,6 +32,9 @@ struct GrfOptions {
 ///   f1_1,f1_2,f1_3 with p1_1.. and m1_1..
 std::vector<std::string> findForceFamilies(const std::vector<std::string>& labels);
 
+/// The feet that the families name, in the order of findForceFamilies; unknown for plates.
+std::vector<Foot> findFamilyFeet(const std::vector<std::string>& labels);
+
 /// Ground reactions out of a table: one ExternalForce per family that a foot uses, in the order of
 /// the columns. Side r, R_ or no side at all is the right foot; l, L_ or the number 1 in front
 /// ("1_ground_force_vx", beside an unnumbered family) is the left.

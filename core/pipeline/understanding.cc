@@ -1,0 +1,102 @@
+#include "core/pipeline/understanding.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+
+#include "core/base/text.h"
+#include "core/io/files.h"
+#include "core/io/grf_reader.h"
+#include "core/pipeline/marker_set_json.h"
+
+namespace gaitmill {
+
+namespace {
+
+MarkerMatch matchOne(const std::set<std::string>& measured, const MarkerSetSpec& set) {
+  MarkerMatch match;
+  match.marker_set = set.name;
+  for (const MarkerWeight& weighted : set.ik.markers) {
+    if (weighted.weight > 0) {
+      (measured.count(weighted.marker) > 0 ? match.found : match.missing)
+          .push_back(weighted.marker);
+    }
+  }
+  return match;
+}
+
+double calcShare(const MarkerMatch& match) {
+  const std::size_t asked = match.found.size() + match.missing.size();
+  return asked == 0 ? 0.0 : static_cast<double>(match.found.size()) / static_cast<double>(asked);
+}
+
+/// All families of a table as forces, whichever foot they belong to.
+GroundReaction readAllPlates(const TableFile& table) {
+  GrfOptions options;
+  for (const std::string& family : findForceFamilies(table.table.labels)) {
+    options.plates.push_back({family, family});
+  }
+  return readGroundReaction(table, options);
+}
+
+void warnOfUnknownFeet(const std::vector<FootContact>& contacts,
+                       std::vector<std::string>& warnings) {
+  std::set<std::string> plates;
+  for (const FootContact& contact : contacts) {
+    if (contact.foot == Foot::kUnknown) {
+      plates.insert(contact.plate);
+    }
+  }
+  for (const std::string& plate : plates) {
+    warnings.push_back("which foot stands on plate '" + plate +
+                       "' cannot be told for every contact; assign it in the settings' "
+                       "trial.plates");
+  }
+}
+
+void warnOfDisjointTimes(const std::vector<double>& forces,
+                         const MarkerTrajectories& markers,
+                         std::vector<std::string>& warnings) {
+  const bool both = !forces.empty() && !markers.time.empty();
+  if (both && (forces.back() < markers.time.front() || markers.time.back() < forces.front())) {
+    warnings.push_back("the forces (" + formatFixed(forces.front(), 3) + " to " +
+                       formatFixed(forces.back(), 3) +
+                       " s) and the markers have no time in common");
+  }
+}
+
+}  // namespace
+
+std::vector<MarkerMatch> matchMarkers(const std::vector<std::string>& measured,
+                                      const std::vector<MarkerSetSpec>& sets) {
+  const std::set<std::string> names(measured.begin(), measured.end());
+  std::vector<MarkerMatch> matches;
+  for (const MarkerSetSpec& set : sets) {
+    matches.push_back(matchOne(names, set));
+  }
+  std::stable_sort(matches.begin(), matches.end(), [](const MarkerMatch& a, const MarkerMatch& b) {
+    return calcShare(a) != calcShare(b) ? calcShare(a) > calcShare(b)
+                                        : a.found.size() > b.found.size();
+  });
+  return matches;
+}
+
+std::vector<MarkerSetSpec> readShippedMarkerSets(const std::string& models_folder) {
+  std::vector<MarkerSetSpec> sets;
+  for (const std::string& path : listFiles(models_folder + "/marker_sets", ".json")) {
+    sets.push_back(readMarkerSet({path, readFile(path)}));
+  }
+  return sets;
+}
+
+ForceUnderstanding understandForces(const TableFile& table, const MarkerTrajectories& markers) {
+  const GroundReaction reaction = readAllPlates(table);
+  ForceUnderstanding understanding;
+  understanding.contacts = findFootContacts(reaction, findFamilyFeet(table.table.labels), markers);
+  understanding.events = findGaitEvents(understanding.contacts);
+  warnOfUnknownFeet(understanding.contacts, understanding.warnings);
+  warnOfDisjointTimes(reaction.time, markers, understanding.warnings);
+  return understanding;
+}
+
+}  // namespace gaitmill

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/analysis/foot_contacts.h"
+#include "core/data/marker_set.h"
+#include "core/data/marker_trajectories.h"
+#include "core/io/table_reader.h"
+
+namespace gaitmill {
+
+// What can be told of the files of a trial before anything is computed.
+
+/// Measured markers against one marker set.
+struct MarkerMatch {
+  std::string marker_set;            ///< its name
+  std::vector<std::string> found;    ///< that its inverse kinematics weighs, in its order
+  std::vector<std::string> missing;  ///< of these, not measured
+};
+
+/// One match per set, the one with the largest share of its markers found first.
+std::vector<MarkerMatch> matchMarkers(const std::vector<std::string>& measured,
+                                      const std::vector<MarkerSetSpec>& sets);
+
+/// The marker sets that ship with the models, by name. @throws Error of readMarkerSet
+std::vector<MarkerSetSpec> readShippedMarkerSets(const std::string& models_folder);
+
+struct ForceUnderstanding {
+  std::vector<FootContact> contacts;  ///< by time
+  std::vector<GaitEvent> events;      ///< of the feet that are known, by time
+  std::vector<std::string> warnings;
+};
+
+/// Which foot stands where and when, for column families that name a foot and for numbered plates,
+/// whose feet the markers tell.
+/// @param markers  the movement, or empty (no frames) if it is not there
+/// @throws Error kGrfColumns, kGrfValue, kGrfUnits as readGroundReaction
+ForceUnderstanding understandForces(const TableFile& table, const MarkerTrajectories& markers);
+
+}  // namespace gaitmill
