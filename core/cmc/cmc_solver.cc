@@ -60,7 +60,7 @@ class CmcRun {
 
   CmcResult solve(const Progress& progress) {
     initializeMuscles();
-    solveInitialStage();
+    solveInitialStage(progress);
     const CmcStop stop = simulate(progress);
     CmcResult result = recorder_.take();
     result.stop = stop;
@@ -103,15 +103,24 @@ class CmcRun {
 
   // Two passes of settling and solving, so that the simulation starts near its steady motion
   // (spec/cmc.md 2).
-  void solveInitialStage() {
+  void solveInitialStage(const Progress& progress) {
     placeOnReference(options_.start_time);
     recorder_.addTrackingError(state_.time, Eigen::VectorXd::Zero(free_.count()));
     controls_.excitation.setConstant(options_.hold_excitation);
+    // Five steps of equal cost before the first window: each may be the last one wanted.
+    const auto hold = [&] {
+      reportProgress(progress, 0.0);
+      controller_.hold(state_, options_.hold_duration, controls_.excitation);
+    };
+    const auto solve_initial_window = [&] {
+      reportProgress(progress, 0.0);
+      solveWindow(options_.initial_window);
+    };
     hold();
     hold();
-    solveWindow(options_.initial_window);
+    solve_initial_window();
     hold();
-    solveWindow(options_.initial_window);
+    solve_initial_window();
     controller_.followPrediction(state_, controls_.excitation);
     placeOnReference(options_.start_time + options_.initial_window);
   }
@@ -121,8 +130,6 @@ class CmcRun {
     reference_.calcPose(t, state_.q);
     reference_.calcSpeed(t, state_.u);
   }
-
-  void hold() { controller_.hold(state_, options_.hold_duration, controls_.excitation); }
 
   void solveWindow(double duration) {
     controller_.solve(state_, duration, controls_);

@@ -16,7 +16,6 @@ namespace {
 
 constexpr int kRootFreedoms = 6;
 constexpr int kDegree = 5;
-constexpr int kProgressRows = 50;
 
 std::string makeForceLabel(const Model& model, CoordinateIndex c) {
   const std::string& name = model.coordinateNames()[static_cast<std::size_t>(c.value())];
@@ -86,7 +85,7 @@ IdResult IdSolver::solve(const TimeSeries& coordinates,
   const int rows = range.last - range.first + 1;
   wrenches_.clear();
   for (int row = 0; row < rows; ++row) {
-    if (row % kProgressRows == 0) reportProgress(progress, static_cast<double>(row) / rows);
+    reportProgress(progress, static_cast<double>(row) / rows);
     solveRow(spline, loads, row, result);
   }
   reportProgress(progress, 1.0);

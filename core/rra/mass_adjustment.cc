@@ -36,7 +36,8 @@ TimeSeries calcDesiredResiduals(const ModelSpec& spec,
                                 const ReferenceMotion& motion,
                                 const ExternalLoads& loads,
                                 const RraOptions& options,
-                                const RraPassOptions& pass) {
+                                const RraPassOptions& pass,
+                                const Progress& progress) {
   const Model model(spec);
   const FreeCoordinates free(model);
   ActuatedBody body(model, free, loads, options.actuators);
@@ -50,6 +51,7 @@ TimeSeries calcDesiredResiduals(const ModelSpec& spec,
   TimeSeries residuals = makeResidualTable(selectTimes(motion.times(), pass));
   Eigen::VectorXd q(n), u(n), udot(n), demand(n);
   for (int i = 0; i < residuals.rowCount(); ++i) {
+    reportProgress(progress, 0.0);
     const double t = residuals.time[static_cast<std::size_t>(i)];
     motion.calcPose(t, q);
     motion.calcSpeed(t, u);
@@ -65,9 +67,12 @@ MassAdjustment shiftMassCenter(const ReferenceMotion& motion,
                                const ExternalLoads& loads,
                                const RraOptions& options,
                                const RraPassOptions& pass,
-                               ModelSpec& spec) {
+                               ModelSpec& spec,
+                               const Progress& progress) {
   const auto average = [&] {
-    return calcResidualStatistics(calcDesiredResiduals(spec, motion, loads, options, pass)).average;
+    return calcResidualStatistics(
+               calcDesiredResiduals(spec, motion, loads, options, pass, progress))
+        .average;
   };
   MassAdjustment adjustment;
   adjustment.average_before = average();

@@ -19,7 +19,6 @@ namespace {
 
 // Length of the initial window, whose controls hold at the start itself.
 constexpr double kInitialWindow = 1e-8;  // [s]
-constexpr int kProgressWindows = 20;
 
 std::string findUnit(const Model& model, CoordinateIndex c) {
   return model.motionKind(c) == MotionKind::kTranslational ? "m" : "rad";
@@ -91,9 +90,7 @@ void Simulation::run(const Progress& progress, RraPassResult& result) {
   controller_.solve(state_, ramp.to_time, ramp.to);
   record(0, ramp.to, result);
   for (int window = 0; window < windows; ++window) {
-    if (window % kProgressWindows == 0) {
-      reportProgress(progress, static_cast<double>(window) / windows);
-    }
+    reportProgress(progress, static_cast<double>(window) / windows);
     std::swap(ramp.from, ramp.to);
     ramp.from_time = ramp.to_time;
     ramp.to_time = pass_.start_time + (window + 1) * options_.window;
@@ -171,7 +168,8 @@ RraPassResult solvePass(const ModelSpec& model,
   RraPassResult result;
   result.used = pass;
   result.adjusted_model = model;
-  result.adjustment = shiftMassCenter(reference, loads, options, pass, result.adjusted_model);
+  result.adjustment =
+      shiftMassCenter(reference, loads, options, pass, result.adjusted_model, progress);
   Simulation(result.adjusted_model, reference, loads, options, result.used).run(progress, result);
   if (options.adjust_mass) {
     MassAdjustment& adjustment = result.adjustment;
