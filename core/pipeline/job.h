@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/analysis/acceptance.h"
+#include "core/analysis/quality_check.h"
 #include "core/cmc/cmc_result.h"
 #include "core/data/ground_reaction.h"
 #include "core/data/marker_trajectories.h"
@@ -95,7 +96,10 @@ struct JobQuality {
   std::vector<MomentComparison> moments;      ///< muscles against inverse dynamics, right leg
   std::vector<ActuatorStatistics> residuals;  ///< of CMC
   std::vector<ActuatorStatistics> reserves;
+  std::vector<QualityCheck> checks;
 };
+/// Holds the figures of a job against what the field takes for trustworthy.
+void addChecks(const Job& job, JobQuality& quality);
 JobQuality calcQuality(const Job& job);
 
 /// The paper's acceptance list with ours, the paper's and OpenSim's figures side by side; empty

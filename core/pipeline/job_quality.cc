@@ -56,6 +56,7 @@ JobQuality calcQuality(const Job& job) {
   if (job.cmc && job.id) {
     quality.moments = compareAllMoments(job);
   }
+  addChecks(job, quality);
   return quality;
 }
 

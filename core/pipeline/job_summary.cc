@@ -143,8 +143,29 @@ Json summarizeInfeasible(const CmcResult& cmc) {
   return windows;
 }
 
+/// The verdict, why, and every figure that it rests on.
+void addVerdict(const std::vector<QualityCheck>& checks, Json& summary) {
+  summary["verdict"] = verdictName(judgeAll(checks));
+  summary["reasons"] = Json::array();
+  summary["checks"] = Json::array();
+  for (const QualityCheck& check : checks) {
+    if (check.judge() != Verdict::kPass) {
+      summary["reasons"].push_back(check.explain());
+    }
+    summary["checks"].push_back({{"figure", check.figure},
+                                 {"worst", check.worst},
+                                 {"value", toJson(check.value)},
+                                 {"unit", check.unit},
+                                 {"limit", check.limit},
+                                 {"fail_above", check.fail_above},
+                                 {"source", check.source},
+                                 {"verdict", verdictName(check.judge())}});
+  }
+}
+
 Json summarizeQuality(const Job& job, const JobQuality& quality) {
   Json summary = Json::object();
+  addVerdict(quality.checks, summary);
   if (job.ik) {
     summary["markers"] = summarizeMarkers(*job.ik);
   }
@@ -173,6 +194,7 @@ Json summarizeQuality(const Job& job, const JobQuality& quality) {
 std::string makeSummary(const Job& job, const JobQuality& quality) {
   Json summary;
   summary["settings"] = job.settings.name;
+  summary["verdict"] = verdictName(judgeAll(quality.checks));
   summary["stages"] = summarizeStages(job);
   summary["quality"] = summarizeQuality(job, quality);
   if (job.scale) {

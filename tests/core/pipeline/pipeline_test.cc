@@ -76,6 +76,9 @@ TEST(PipelineTest, SummaryHasTheStatedFigures) {
     EXPECT_LT(tracking["max_cm"].get<double>(), tol(2)) << stage;
   }
   EXPECT_GT(summary["quality"]["moments"]["fraction_of_instants_at_90_percent"].get<double>(), 0.9);
+  EXPECT_EQ(summary["verdict"], "pass");
+  EXPECT_TRUE(summary["quality"]["reasons"].empty());
+  EXPECT_GT(summary["quality"]["checks"].size(), 15U);
 }
 
 TEST(PipelineTest, TablesHaveUnitsAndACycle) {
