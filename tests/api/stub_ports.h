@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -37,8 +38,15 @@ struct StubRecord {
   std::vector<api::JobEvent> events;
   std::string unreadiness;
   bool is_final = true;  ///< of the tables
+  std::mutex mutex;      ///< of calls, tenant and failure
+
+  void failWith(std::optional<Error> error) {
+    const std::lock_guard lock(mutex);
+    failure = std::move(error);
+  }
 
   void note(const api::Identity& who, const std::string& call) {
+    const std::lock_guard lock(mutex);
     calls.push_back(call);
     tenant = who.tenant;
     if (failure) {
@@ -427,7 +435,8 @@ struct StubPorts {
   StubStatus status{record};
 
   api::Ports ports() {
-    return {trials, jobs, studies, results, models, marker_sets, settings, keys, idempotency, status};
+    return {
+        trials, jobs, studies, results, models, marker_sets, settings, keys, idempotency, status};
   }
 };
 

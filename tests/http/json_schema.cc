@@ -38,13 +38,15 @@ class Checker {
         {"properties", &Checker::checkProperties},
         {"additionalProperties", &Checker::checkClosed},
         {"items", &Checker::checkItems},
+        {"minProperties", &Checker::checkSize},
         {"minimum", &Checker::checkMinimum},
         {"maximum", &Checker::checkMaximum},
         {"pattern", &Checker::checkPattern},
         {"anyOf", &Checker::checkAnyOf},
         {"not", &Checker::checkNot}};
     for (const auto& [keyword, argument] : schema.items()) {
-      if (keyword == "description" || keyword == "default" || keyword == "format") {
+      if (keyword == "description" || keyword == "default" || keyword == "format" ||
+          keyword == "contentEncoding") {
         continue;
       }
       const auto rule = rules.find(keyword);
@@ -111,7 +113,13 @@ class Checker {
   }
   void checkClosed(const json& value, const json& schema, const json& open, const std::string& p) {
     for (const auto& [name, child] : value.items()) {
-      expect(open != false || schema["properties"].contains(name), p, "has a field " + name);
+      if (schema.contains("properties") && schema["properties"].contains(name)) {
+        continue;
+      }
+      expect(open != false, p, "has a field " + name);
+      if (open.is_object()) {
+        check(child, open, p + "." + name);
+      }
     }
   }
   void checkItems(const json& value, const json&, const json& schema, const std::string& place) {
@@ -119,11 +127,14 @@ class Checker {
       check(value[i], schema, place + "[" + std::to_string(i) + "]");
     }
   }
+  void checkSize(const json& value, const json&, const json& low, const std::string& place) {
+    expect(value.size() >= low, place, "has fewer than " + low.dump() + " fields");
+  }
   void checkMinimum(const json& value, const json&, const json& low, const std::string& place) {
-    expect(value >= low, place, "is below " + low.dump());
+    expect(!value.is_number() || value >= low, place, "is below " + low.dump());
   }
   void checkMaximum(const json& value, const json&, const json& high, const std::string& place) {
-    expect(value <= high, place, "is above " + high.dump());
+    expect(!value.is_number() || value <= high, place, "is above " + high.dump());
   }
   void checkPattern(const json& value, const json&, const json& regex, const std::string& place) {
     const bool ok =
