@@ -43,6 +43,7 @@ class MemoryBuffer : public BodyBuffer {
  public:
   explicit MemoryBuffer(Lease lease) : lease_(std::move(lease)) {}
 
+  bool isOnDisk() const override { return false; }
   void append(std::string_view bytes) override { bytes_.append(bytes); }
   std::shared_ptr<const ByteSource> finish() override {
     return std::make_shared<MemorySource>(std::move(bytes_), std::move(lease_));
@@ -138,6 +139,7 @@ class SpoolBuffer : public BodyBuffer {
  public:
   SpoolBuffer(const std::string& folder, Lease lease) : file_(folder), lease_(std::move(lease)) {}
 
+  bool isOnDisk() const override { return true; }
   void append(std::string_view bytes) override {
     file_.append(bytes);
     size_ += bytes.size();

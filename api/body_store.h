@@ -46,6 +46,8 @@ class Budget {
 class BodyBuffer {
  public:
   virtual ~BodyBuffer() = default;
+  /// Whether append() may wait for a disk.
+  virtual bool isOnDisk() const = 0;
   /// @throws Error kStorageFull, kStorage
   virtual void append(std::string_view bytes) = 0;
   /// What was appended; the buffer is spent.

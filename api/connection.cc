@@ -18,7 +18,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr int kRequestsPerTurn = 16;  // of one connection before others have theirs
+constexpr std::size_t kLeastSpooled = 32U << 10U;  // [bytes] of a body written to disk at once
+constexpr int kRequestsPerTurn = 16;               // of one connection before others have theirs
 constexpr std::size_t kMaxClientId = 64;
 constexpr milliseconds kLingerLimit{2'000};
 constexpr milliseconds kLingerAtStop{100};
@@ -123,6 +124,9 @@ void Connection::onAnswer(Answer answer) {
     case Phase::kFetching:
       takePiece(std::move(answer));
       break;
+    case Phase::kSpooling:
+      takeSpooled(answer);
+      break;
     case Phase::kStreaming:
       takeEvents(std::move(answer));
       break;
@@ -146,6 +150,7 @@ void Connection::onStop() {
       close();
       break;
     case Phase::kBody:
+    case Phase::kSpooling:
       breakOff(Error(ErrorCode::kServiceUnready, "the service is stopping", {"", 0, 0, "service"}));
       break;
     case Phase::kParked:
@@ -278,26 +283,64 @@ void Connection::beginBody() {
 // @returns false while bytes are missing
 bool Connection::takeBody() {
   const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(body_left_, input_.size()));
-  try {
-    body_->append(std::string_view(input_).substr(0, size));
-    input_.erase(0, size);
-    body_left_ -= size;
-    window_bytes_ += size;
-    if (body_left_ > 0) {
-      releaseMemory(input_);
-      return false;
+  if (body_->isOnDisk()) {
+    const bool is_enough = size == body_left_ || size >= kLeastSpooled;
+    if (is_enough) {
+      spoolPiece(size);
     }
-    exchange_->request.body = body_->finish();
-    body_ = nullptr;
-    dispatch();
-  } catch (const Error& error) {
-    context_.log(LogLevel::kError, record_.id + " " + record_.path + ": " + error.what());
-    breakOff(error);
+    return is_enough;
   }
+  body_->append(std::string_view(input_).substr(0, size));
+  input_.erase(0, size);
+  body_left_ -= size;
+  window_bytes_ += size;
+  if (body_left_ > 0) {
+    releaseMemory(input_);
+    return false;
+  }
+  dispatch();
   return true;
 }
 
+// Writing may wait for the disk, which this thread must not.
+void Connection::spoolPiece(std::size_t size) {
+  std::string bytes = input_.substr(0, size);
+  input_.erase(0, size);
+  body_left_ -= size;
+  window_bytes_ += size;
+  enter(Phase::kSpooling);
+  Answer answer;
+  answer.connection = id_;
+  answer.step = ++step_;
+  context_.pool.submit(
+      HandlerPool::Lane::kContinue,
+      [answer, bytes = std::move(bytes), body = body_, &mailbox = context_.mailbox]() mutable {
+        try {
+          body->append(bytes);
+        } catch (const Error& error) {
+          answer.failed = true;
+          answer.fault = error;
+        }
+        body = nullptr;
+        mailbox.put(std::move(answer));
+      });
+}
+
+void Connection::takeSpooled(const Answer& answer) {
+  if (answer.failed) {
+    context_.log(LogLevel::kError, record_.id + " " + record_.path + ": " + answer.fault->what());
+    breakOff(*answer.fault);
+  } else if (body_left_ > 0) {
+    enter(Phase::kBody);
+  } else {
+    dispatch();
+  }
+}
+
 void Connection::dispatch() {
+  if (body_) {
+    exchange_->request.body = std::exchange(body_, nullptr)->finish();
+  }
   enter(Phase::kHandling);
   const bool is_heavy = admission_.body_bytes > context_.options.spool_above;
   if (!ask(is_heavy ? HandlerPool::Lane::kHeavy : HandlerPool::Lane::kQuick)) {
@@ -597,7 +640,8 @@ void Connection::beginWindow() {
 bool Connection::keepsPace(milliseconds window) {
   const std::uint64_t least =
       context_.options.lowest_rate * static_cast<std::uint64_t>(window.count()) / 1000U;
-  const bool keeps = window_bytes_ >= least || phase_ == Phase::kFetching;
+  const bool is_our_turn = phase_ == Phase::kFetching || phase_ == Phase::kSpooling;
+  const bool keeps = window_bytes_ >= least || is_our_turn;
   beginWindow();
   return keeps;
 }
@@ -615,6 +659,7 @@ std::uint32_t Connection::interest() const {
       return EPOLLRDHUP;
     case Phase::kStreaming:
       return out_head_.empty() && out_body_.empty() ? EPOLLRDHUP : EPOLLRDHUP | EPOLLOUT;
+    case Phase::kSpooling:
     case Phase::kHandling:
     case Phase::kFetching:
     case Phase::kFinished:
@@ -645,6 +690,7 @@ Clock::time_point Connection::due() const {
     case Phase::kHead:
       return since_ + options.header_deadline;
     case Phase::kBody:
+    case Phase::kSpooling:
       return window_begin_ + options.body_deadline;
     case Phase::kWriting:
     case Phase::kFetching:
@@ -676,6 +722,7 @@ void Connection::onTimer(Clock::time_point now) {
                      {"", 0, 0, "headers"}));
       break;
     case Phase::kBody:
+    case Phase::kSpooling:
       if (!keepsPace(options.body_deadline)) {
         breakOff(
             Error(ErrorCode::kRequestTimeout, "the body comes too slowly", {"", 0, 0, "body"}));

@@ -70,7 +70,7 @@ class Connection {
   bool wantsTurn() const { return wants_turn_; }
   std::uint32_t interest() const;  ///< EPOLLIN, EPOLLOUT, EPOLLRDHUP
   /// Whether reading may stay armed though nothing is to be read now, which saves a system call.
-  bool toleratesInput() const { return phase_ == Phase::kHandling; }
+  bool toleratesInput() const { return phase_ == Phase::kHandling || phase_ == Phase::kSpooling; }
   Clock::time_point due() const;
   const Topic& topic() const;  ///< of what it waits for, empty if nothing
   bool isIdle() const { return phase_ == Phase::kIdle; }
@@ -83,6 +83,7 @@ class Connection {
     kIdle,       ///< between requests
     kHead,       ///< reading a head
     kBody,       ///< reading a body
+    kSpooling,   ///< a handler thread writes a piece of the body to the disk
     kHandling,   ///< a handler thread has the request
     kParked,     ///< a long poll waits for its topic
     kWriting,    ///< a reply is being sent
@@ -100,6 +101,8 @@ class Connection {
   void startExchange();
   void beginBody();
   bool takeBody();
+  void spoolPiece(std::size_t size);
+  void takeSpooled(const Answer& answer);
   void dispatch();
 
   // --- answering ---
@@ -144,7 +147,7 @@ class Connection {
   std::size_t scanned_ = 0;  ///< bytes of input_ without an end of head
   RequestHead head_;
   Admission admission_;
-  std::unique_ptr<BodyBuffer> body_;
+  std::shared_ptr<BodyBuffer> body_;
   std::uint64_t body_left_ = 0;
   std::shared_ptr<Exchange> exchange_;
   std::uint64_t step_ = 0;  ///< of handler tasks; the last one's answer is awaited

@@ -2,22 +2,27 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "api/http.h"
 #include "api/response.h"
+#include "core/base/error.h"
 
 namespace gaitmill::api {
 
-/// What a handler thread made of a connection's request: a response, or the next piece of one.
+/// What a handler thread did for a connection: a response, the next piece of one, or a piece of the
+/// body stored.
 struct Answer {
   std::uint64_t connection = 0;
   std::uint64_t step = 0;      ///< of the connection; an answer to an earlier step is dropped
   std::uint64_t asked_at = 0;  ///< Mailbox::sequence() before the handler looked
-  bool failed = false;         ///< the piece could not be had
+  bool failed = false;         ///< the piece could not be had, or not be stored
+  std::optional<Error> fault;  ///< why it could not be stored
   Response response;
   std::string piece;  ///< next bytes of a source or an event stream
   bool events_ended = false;
