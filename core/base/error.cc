@@ -42,13 +42,42 @@ const std::vector<ErrorCode>& allErrorCodes() {
   return codes;
 }
 
+namespace {
+
+/// Cut to Error::kMaximumText bytes, between two characters.
+std::string shorten(std::string text) {
+  constexpr std::string_view kCut = "...";
+  if (text.size() <= Error::kMaximumText) {
+    return text;
+  }
+  std::size_t end = Error::kMaximumText - kCut.size();
+  const auto continues = [&](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;  // inside a UTF-8 sequence
+  };
+  while (end > 0 && continues(text[end])) {
+    --end;
+  }
+  text.resize(end);
+  return text.append(kCut);
+}
+
+Where shorten(Where where) {
+  for (std::string* text :
+       {&where.file, &where.field, &where.marker, &where.muscle, &where.coordinate}) {
+    *text = shorten(std::move(*text));
+  }
+  return where;
+}
+
+}  // namespace
+
 Error::Error(ErrorCode code, std::string message, Where where)
-    : code_(code), message_(std::move(message)), where_(std::move(where)) {
+    : code_(code), message_(shorten(std::move(message))), where_(shorten(std::move(where))) {
   composeWhat();
 }
 
 Error& Error::addContext(std::string step) {
-  context_.push_back(std::move(step));
+  context_.push_back(shorten(std::move(step)));
   composeWhat();
   return *this;
 }
@@ -60,7 +89,7 @@ Error& Error::setFile(const std::string& file) {
 }
 
 Error& Error::completeWhere(const Where& known) {
-  where_.complete(known);
+  where_.complete(shorten(known));
   composeWhat();
   return *this;
 }
@@ -164,6 +193,9 @@ void check(bool ok, const char* message) {
 
 namespace {
 
+// The distance takes the product of both lengths; longer texts are not names.
+constexpr std::size_t kLongestName = 200;  // [bytes]
+
 std::size_t calcEditDistance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) {
@@ -184,10 +216,16 @@ std::size_t calcEditDistance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string findNearestName(std::string_view name, const std::vector<std::string>& names) {
+  if (name.size() > kLongestName) {
+    return "";
+  }
   // More than a third of the letters wrong is another word, not a misspelling.
   std::size_t best = name.size() / 3 + 2;
   std::string nearest;
   for (const std::string& candidate : names) {
+    if (candidate.size() > 2 * kLongestName) {
+      continue;
+    }
     const std::size_t distance = calcEditDistance(name, candidate);
     if (distance < best) {
       best = distance;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <exception>
 #include <limits>
 #include <string>
@@ -45,6 +46,9 @@ struct Where {
 /// sentence that says what was found and what was expected.
 class Error : public std::exception {
  public:
+  /// Longer messages, names and steps are cut: what quotes the input could quote all of it.
+  static constexpr std::size_t kMaximumText = 2000;  ///< [bytes]
+
   Error(ErrorCode code, std::string message, Where where = {});
 
   ErrorCode code() const noexcept { return code_; }

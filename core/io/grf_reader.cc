@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include "core/base/error.h"
@@ -36,20 +37,38 @@ struct Family {
   Columns torque = {-1, -1, -1};
 };
 
-int findLabel(const std::vector<std::string>& labels, const std::string& label) {
-  const auto found = std::find_if(labels.begin(), labels.end(), [&](const std::string& candidate) {
-    return equalsIgnoringCase(candidate, label);
-  });
-  return found == labels.end() ? -1 : static_cast<int>(found - labels.begin());
+std::string toLower(std::string text) {
+  for (char& c : text) {
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return text;
 }
 
+/// Columns by label, in any case: each family asks for up to 24 labels.
+class LabelIndex {
+ public:
+  explicit LabelIndex(const std::vector<std::string>& labels) {
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      columns_.emplace(toLower(labels[i]), static_cast<int>(i));
+    }
+  }
+  /// The first column of that label, or -1.
+  int find(const std::string& label) const {
+    const auto found = columns_.find(toLower(label));
+    return found == columns_.end() ? -1 : found->second;
+  }
+
+ private:
+  std::unordered_map<std::string, int> columns_;
+};
+
 /// Columns stem+ends[0..2], or nullopt unless all three exist.
-std::optional<Columns> findTriple(const std::vector<std::string>& labels,
+std::optional<Columns> findTriple(const LabelIndex& labels,
                                   const std::string& stem,
                                   const std::array<const char*, 3>& ends) {
   Columns columns = {};
   for (std::size_t i = 0; i < 3; ++i) {
-    columns[i] = findLabel(labels, stem + ends[i]);
+    columns[i] = labels.find(stem + ends[i]);
     if (columns[i] < 0) {
       return std::nullopt;
     }
@@ -89,8 +108,7 @@ std::optional<std::string> readSide(std::string_view prefix, std::string_view in
   return std::nullopt;
 }
 
-std::optional<Family> makeNamedFamily(const std::vector<std::string>& labels,
-                                      const std::string& label) {
+std::optional<Family> makeNamedFamily(const LabelIndex& labels, const std::string& label) {
   const std::string stem = "ground_force_";
   const std::size_t at = label.find(stem);
   if (at == std::string::npos || label.size() < at + stem.size() + 2 ||
@@ -125,8 +143,7 @@ std::optional<Family> makeNamedFamily(const std::vector<std::string>& labels,
 }
 
 /// f1_1 f1_2 f1_3, p1_1 .., m1_1 .. as the C3D conversion writes them.
-std::optional<Family> makeAdapterFamily(const std::vector<std::string>& labels,
-                                        const std::string& label) {
+std::optional<Family> makeAdapterFamily(const LabelIndex& labels, const std::string& label) {
   const std::size_t underscore = label.find('_');
   if (label.empty() || label[0] != 'f' || underscore == std::string::npos ||
       label.substr(underscore) != "_1" || !isNumber(label.substr(1, underscore - 1))) {
@@ -147,11 +164,12 @@ std::optional<Family> makeAdapterFamily(const std::vector<std::string>& labels,
 }
 
 std::vector<Family> findFamilies(const std::vector<std::string>& labels) {
+  const LabelIndex index(labels);
   std::vector<Family> families;
   for (const std::string& label : labels) {
-    std::optional<Family> family = makeNamedFamily(labels, label);
+    std::optional<Family> family = makeNamedFamily(index, label);
     if (!family) {
-      family = makeAdapterFamily(labels, label);
+      family = makeAdapterFamily(index, label);
     }
     if (family) {
       families.push_back(std::move(*family));

@@ -17,6 +17,11 @@ constexpr int kNewestVersion = 40600;
 // Below this, names may hold blanks, which the conversion removes.
 constexpr int kFirstVersionWithoutBlanks = 30500;
 
+// Far above any model of a person (22 bodies, 97 forces), so that no document takes the square of a
+// large number of objects.
+constexpr std::size_t kMaximumBytes = 16U << 20U;
+constexpr std::size_t kMaximumChildren = 2000;
+
 constexpr std::string_view kBlank = " \t\r\n\v\f";
 
 /// Calls visit(word, offset of the word in text) for every blank-separated word.
@@ -169,6 +174,11 @@ std::vector<OsimElement> OsimElement::children() const {
       result.emplace_back(*document_, child);
     }
   }
+  if (result.size() > kMaximumChildren) {
+    fail(ErrorCode::kModelUnsupported,
+         describe() + " holds " + std::to_string(result.size()) + " objects; up to " +
+             std::to_string(kMaximumChildren) + " are read");
+  }
   return result;
 }
 
@@ -240,6 +250,11 @@ void OsimElement::fail(ErrorCode code, const std::string& message) const {
 OsimDocument::OsimDocument(std::string_view bytes, const std::string& file_name)
     : bytes_(skipByteOrderMark(bytes)), file_name_(file_name) {
   requireData(bytes_, file_name_);
+  require(bytes_.size() <= kMaximumBytes,
+          ErrorCode::kFileTooLarge,
+          "a model document of " + std::to_string(bytes_.size()) + " bytes; up to " +
+              std::to_string(kMaximumBytes) + " are read",
+          {file_name_, 1, 1, {}});
   parse();
   readVersion();
 }
@@ -284,6 +299,9 @@ void OsimDocument::readPrototypes(const OsimElement& model) {
   prototypes_ = model.node().child("defaults");
   if (!prototypes_) {
     prototypes_ = xml_.document_element().child("defaults");
+  }
+  if (prototypes_) {
+    static_cast<void>(OsimElement(*this, prototypes_).children());  // refuses too many
   }
 }
 

@@ -17,6 +17,8 @@ namespace {
 
 using Vector3d = Eigen::Vector3d;
 
+constexpr std::size_t kMaximumWraps = 2000;  // the full-body model has 40
+
 bool isContactForce(const OsimElement& force) {
   constexpr std::array<std::string_view, 3> kTypes = {
       "SmoothSphereHalfSpaceForce", "HuntCrossleyForce", "ElasticFoundationForce"};
@@ -65,7 +67,9 @@ class ModelReader {
 };
 
 void ModelReader::warn(const OsimElement& element, const std::string& sentence) {
-  if (warnings_ != nullptr) {
+  // To find a line takes a walk through the document.
+  constexpr std::size_t kMaximumWarnings = 100;
+  if (warnings_ != nullptr && warnings_->size() < kMaximumWarnings) {
     warnings_->push_back("line " + std::to_string(element.where().line) + ": " +
                          element.describe() + " " + sentence);
   }
@@ -114,6 +118,10 @@ void ModelReader::addWraps(const OsimElement& owner, std::vector<WrapCylinderSpe
                 "there is already a wrap object '" + wrap.name + "'");
     }
     wrap_objects_.push_back(wrap.name);
+    if (wrap_objects_.size() > kMaximumWraps) {
+      owner.fail(ErrorCode::kModelUnsupported,
+                 "the model has more than " + std::to_string(kMaximumWraps) + " wrap objects");
+    }
     wraps.push_back(wrap);
   }
 }

@@ -22,9 +22,11 @@ namespace gaitmill {
 ///
 /// @param file_name  for error messages only; nothing is opened
 /// @param warnings   if given, one sentence per thing left out is appended
+/// Documents beyond 16 MiB, sets of more than 2000 objects and more than 2000 wraps are refused; of
+/// the warnings the first 100 are kept.
 /// @throws Error kModelXml, kModelVersion, kModelElement, kModelValue, kModelReference,
 /// kModelDuplicateName, kModelTopology, kModelUnsupported, kMuscleParameter, kFileEmpty,
-/// kFileNotTheData; all with line and column
+/// kFileNotTheData, kFileTooLarge; all with line and column
 ModelSpec readOsim(std::string_view bytes,
                    const std::string& file_name,
                    std::vector<std::string>* warnings = nullptr);

@@ -216,6 +216,12 @@ void TableParser::readLabels() {
   } else {
     splitAtBlanks(line, cells_);
   }
+  if (cells_.empty() || cells_.size() > kMaximumCells) {
+    fail(ErrorCode::kTableLabels,
+         cells_.empty() ? "the line of the labels has none"
+                        : "the table has more than " + std::to_string(kMaximumCells) + " columns",
+         1);
+  }
   for (const Cell& cell : cells_) {
     addLabel(cell);
   }

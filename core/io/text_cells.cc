@@ -33,7 +33,7 @@ bool LineReader::next() {
 void splitAt(char separator, std::string_view line, std::vector<Cell>& cells) {
   cells.clear();
   std::size_t begin = 0;
-  while (true) {
+  while (cells.size() <= kMaximumCells) {
     const std::size_t end = std::min(line.find(separator, begin), line.size());
     cells.push_back(makeCell(line, begin, end));
     if (end == line.size()) {
@@ -47,7 +47,7 @@ void splitAtBlanks(std::string_view line, std::vector<Cell>& cells) {
   constexpr std::string_view kBlank = " \t\v\f";
   cells.clear();
   std::size_t begin = line.find_first_not_of(kBlank);
-  while (begin != std::string_view::npos) {
+  while (begin != std::string_view::npos && cells.size() <= kMaximumCells) {
     const std::size_t end = std::min(line.find_first_of(kBlank, begin), line.size());
     cells.push_back({line.substr(begin, end - begin), static_cast<int>(begin) + 1});
     begin = line.find_first_not_of(kBlank, end);

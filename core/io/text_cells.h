@@ -35,10 +35,15 @@ struct Cell {
   int column = 0;
 };
 
-/// Cells between separators, empty ones included, for instance "a\t\tb" -> "a", "", "b".
+/// Widest row that a table may have; a full-body model's widest table has some 300 columns. A line
+/// of separators would cost 24 bytes of memory for each of its own.
+inline constexpr std::size_t kMaximumCells = 65536;
+
+/// Cells between separators, empty ones included, for instance "a\t\tb" -> "a", "", "b". Stops
+/// after kMaximumCells + 1 cells.
 void splitAt(char separator, std::string_view line, std::vector<Cell>& cells);
 
-/// Words between any mix of blanks and tabs.
+/// Words between any mix of blanks and tabs; stops likewise.
 void splitAtBlanks(std::string_view line, std::vector<Cell>& cells);
 
 /// Drops empty cells at the end.

@@ -78,6 +78,7 @@ class TrcParser {
   std::optional<long> stated_frames_;
   std::optional<long> stated_markers_;
   double units_per_metre_ = 0;
+  std::unordered_set<std::string> known_names_;
   std::vector<std::size_t> sources_;  // triple of the row that each kept marker has
   std::size_t triple_count_ = 0;
   std::vector<double> values_;
@@ -173,7 +174,7 @@ void TrcParser::keepMarker(const Cell& cell, std::size_t index) {
          "') is unlabelled and was dropped");
     return;
   }
-  if (file_.markers.findMarker(name)) {
+  if (!known_names_.insert(name).second) {
     warn("marker '" + name + "' stands twice; the first was kept");
     return;
   }
@@ -185,6 +186,11 @@ void TrcParser::readNames() {
   nextLine("the marker names");
   splitAt('\t', lines_.line(), cells_);
   dropEmptyTail(cells_);
+  if (cells_.size() > kMaximumCells) {
+    fail(ErrorCode::kTrcMarkerNames,
+         "the fourth line has more than " + std::to_string(kMaximumCells) + " cells",
+         1);
+  }
   if (cells_.size() < 2 || cells_[0].text.substr(0, 5) != "Frame" || cells_[1].text != "Time") {
     fail(ErrorCode::kTrcMarkerNames,
          "the fourth line begins with Frame#, Time, separated by tabs",
@@ -329,6 +335,12 @@ void TrcParser::rebuildTimes() {
   for (std::size_t k = 1; k < time.size(); ++k) {
     time[k] = time[0] + static_cast<double>(k) / file_.markers.rate;
   }
+  // A rate of 1e300 Hz, or a start at 1e300 s, leaves nothing between two frames.
+  require(std::adjacent_find(time.begin(), time.end(), std::greater_equal<>()) == time.end(),
+          ErrorCode::kTrcTimeOrder,
+          "times that start at " + formatNumber(time[0]) + " s do not increase at " +
+              formatNumber(file_.markers.rate) + " Hz",
+          {file_name_, 3, 1, "DataRate"});
 }
 
 void TrcParser::finishTimes() {

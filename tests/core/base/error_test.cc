@@ -42,6 +42,28 @@ TEST(Error, SaysWhereInTheComputation) {
                "is seen in no frame [input.markers] (stage ik, 0.350 s, marker RASI)");
 }
 
+TEST(Error, CutsWhatWouldQuoteAWholeFile) {
+  Where where;
+  where.field = std::string(1 << 20, 'f');
+  Error error(ErrorCode::kTrcNumber, std::string(Error::kMaximumText + 1, 'x'), where);
+  error.addContext(std::string(1 << 20, 'c'));
+  EXPECT_EQ(error.message().size(), Error::kMaximumText);
+  EXPECT_EQ(error.message().substr(Error::kMaximumText - 4), "x...");
+  EXPECT_EQ(error.where().field.size(), Error::kMaximumText);
+  EXPECT_EQ(error.context()[0].size(), Error::kMaximumText);
+  EXPECT_EQ(Error(ErrorCode::kTrcNumber, std::string(Error::kMaximumText, 'x')).message().size(),
+            Error::kMaximumText);
+}
+
+TEST(Error, CutsBetweenCharacters) {
+  std::string umlauts = "x";
+  while (umlauts.size() < Error::kMaximumText + 10) {
+    umlauts += "\xC3\xA4";
+  }
+  const std::string message = Error(ErrorCode::kTrcNumber, umlauts).message();
+  EXPECT_EQ(message.substr(message.size() - 5), "\xC3\xA4...");
+}
+
 TEST(Where, IsEmptyUntilOneMemberIsKnown) {
   EXPECT_TRUE(Where{}.isEmpty());
   Where time_only;
@@ -92,6 +114,11 @@ TEST(Index, DefaultIsInvalidAndGroundIsNotABody) {
   EXPECT_FALSE(BodyIndex().isValid());
   EXPECT_TRUE(BodyIndex(0).isValid());
   EXPECT_EQ(kGround, BodyIndex(-1));
+}
+
+TEST(FindNearestName, DoesNotMeasureWhatIsNoName) {
+  EXPECT_EQ(findNearestName(std::string(100000000, 'm'), {"mass", std::string(100000000, 'm')}),
+            "");
 }
 
 }  // namespace

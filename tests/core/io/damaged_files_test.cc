@@ -126,6 +126,29 @@ TEST(DamagedFiles, DeepNestingIsNoStackOverflow) {
   EXPECT_THROW(readOsimText(document), Error);
 }
 
+TEST(DamagedFiles, DocumentsOfTooManyObjectsAreRefused) {
+  std::string bodies;
+  for (int i = 0; i < 3000; ++i) {
+    bodies += "<Body name=\"b" + std::to_string(i) + "\"><mass>1</mass></Body>";
+  }
+  const auto codeOf = [](const std::string& text) {
+    try {
+      readOsimText(text);
+    } catch (const Error& error) {
+      return error.code();
+    }
+    return ErrorCode::kInternal;
+  };
+  const std::string head = "<OpenSimDocument Version=\"40000\"><Model>";
+  EXPECT_EQ(codeOf(head + "<BodySet><objects>" + bodies +
+                   "</objects></BodySet></Model></OpenSimDocument>"),
+            ErrorCode::kModelUnsupported);
+  EXPECT_EQ(codeOf(head + "<defaults>" + bodies + "</defaults></Model></OpenSimDocument>"),
+            ErrorCode::kModelUnsupported);
+  EXPECT_EQ(codeOf(head + std::string(17U << 20U, ' ') + "</Model></OpenSimDocument>"),
+            ErrorCode::kFileTooLarge);
+}
+
 TEST(DamagedFiles, ClaimedSizesAreNotAllocated) {
   EXPECT_NO_THROW(
       readTableText("x\nnRows=999999999999\nnColumns=999999999999\nendheader\ntime a\n0 1\n"));

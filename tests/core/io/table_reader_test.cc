@@ -10,6 +10,7 @@
 #include "core/base/units.h"
 #include "core/io/files.h"
 #include "core/io/osim_reader.h"
+#include "core/io/text_cells.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/tolerance.h"
 
@@ -77,6 +78,25 @@ TEST(TableReader, RowRepeatingATimeIsDroppedWithAWarning) {
   EXPECT_EQ(file.table.time, (std::vector<double>{0, 1}));
   EXPECT_EQ(valueAt(file, 1, "a"), 3);
   EXPECT_EQ(file.warnings.size(), 1u);
+}
+
+TEST(TableReader, LabelLineOfSeparatorsOnlyIsRefused) {
+  for (const char* const line : {",\n", ",,,\r0,1,2,3\n"}) {
+    try {
+      readTable(line, "a.csv");
+      ADD_FAILURE() << line;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kTableLabels) << error.what();
+    }
+  }
+}
+
+TEST(TableReader, EndlessLabelLineIsRefused) {
+  std::string text = "time";
+  for (std::size_t i = 0; i < 10 * kMaximumCells; ++i) {
+    text += "," + std::to_string(i);
+  }
+  EXPECT_THROW(readTable(text + "\n0\n", "a.csv"), Error);
 }
 
 TEST(TableReader, SeveralFaultsAreReportedTogether) {

@@ -27,6 +27,18 @@ TEST(TextCells, EmptyLinesCount) {
   EXPECT_EQ(lines.number(), 4);
 }
 
+TEST(TextCells, WideLinesAreNotSplitWhole) {
+  std::vector<Cell> cells;
+  splitAt(',', std::string(10 * kMaximumCells, ','), cells);
+  EXPECT_EQ(cells.size(), kMaximumCells + 1);
+  std::string words;
+  for (std::size_t i = 0; i < 2 * kMaximumCells; ++i) {
+    words += "a ";
+  }
+  splitAtBlanks(words, cells);
+  EXPECT_EQ(cells.size(), kMaximumCells + 1);
+}
+
 TEST(TextCells, CellsKnowWhereTheirTextBegins) {
   std::vector<Cell> cells;
   splitAt('\t', "a\t\t  b \t", cells);

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/io/files.h"
+#include "core/io/text_cells.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/tolerance.h"
 
@@ -64,6 +65,30 @@ TEST(TrcReader, TimesThatDoNotIncreaseAreRebuiltFromTheRate) {
       makeHead("50", "2", "m") + "1\t0\t1\t1\t1\t1\t1\t1\n2\t0\t1\t1\t1\t1\t1\t1\n", "a.trc");
   EXPECT_EQ(file.markers.time[1], 0.02);
   EXPECT_EQ(file.warnings.size(), 1u);
+}
+
+TEST(TrcReader, TimesThatCannotBeRebuiltAreRefused) {
+  for (const char* const rows : {"1\t1e308\t1\t1\t1\t1\t1\t1\n2\t0\t1\t1\t1\t1\t1\t1\n",
+                                 "1\t9e15\t1\t1\t1\t1\t1\t1\n2\t9e15\t1\t1\t1\t1\t1\t1\n"}) {
+    try {
+      readTrc(makeHead("50", "2", "m") + rows, "a.trc");
+      ADD_FAILURE() << rows;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kTrcTimeOrder) << error.what();
+    }
+  }
+}
+
+// Each of these lines once cost the square of its length, or 24 bytes of memory per byte.
+TEST(TrcReader, EndlessHeadingsAreRefused) {
+  const std::string head = "PathFileType\t4\nDataRate\tUnits\n50\tm\nFrame#\tTime";
+  for (const char* const column : {"\tA", "\t*1", "\t"}) {
+    std::string text = head;
+    for (std::size_t i = 0; i < 10 * kMaximumCells; ++i) {
+      text += column;
+    }
+    EXPECT_THROW(readTrc(text + "\tA\n1\t0\n", "a.trc"), Error) << column;
+  }
 }
 
 TEST(TrcReader, CutLastRowIsDroppedAndWrongCountsAreWarnings) {
