@@ -17,6 +17,9 @@ const Json& emptyObject() {
   return empty;
 }
 
+// Our documents have 5 levels; whatever walks through a document may recurse.
+constexpr int kMaximumNesting = 64;
+
 const Json& nullValue() {
   static const Json null;
   return null;
@@ -35,8 +38,18 @@ Where locate(const InputFile& file, std::size_t byte) {
 }  // namespace
 
 Json parseJson(const InputFile& file) {
+  const auto limitNesting = [&](int depth, Json::parse_event_t event, Json&) {
+    const bool opens =
+        event == Json::parse_event_t::array_start || event == Json::parse_event_t::object_start;
+    require(!opens || depth < kMaximumNesting,
+            ErrorCode::kSettingsJson,
+            "not a settings document: nested deeper than " + std::to_string(kMaximumNesting) +
+                " levels",
+            {file.name, 1, 1, {}});
+    return true;
+  };
   try {
-    return Json::parse(file.bytes);
+    return Json::parse(file.bytes, limitNesting);
   } catch (const Json::parse_error& fault) {
     std::string message = fault.what();
     // "[json.exception.parse_error.101] parse error at line 1, column 2: ...": keep the last part.
@@ -44,6 +57,9 @@ Json parseJson(const InputFile& file) {
     message = colon == std::string::npos ? message : message.substr(colon + 2);
     throw Error(
         ErrorCode::kSettingsJson, "not a JSON document: " + message, locate(file, fault.byte));
+  } catch (const Json::out_of_range&) {
+    throw Error(
+        ErrorCode::kSettingsJson, "a number is too large for a double", {file.name, 0, 0, {}});
   }
 }
 

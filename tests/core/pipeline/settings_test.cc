@@ -28,6 +28,7 @@ struct BadSettings {
 TEST(Settings, FaultsNameTheFieldAndWhatWasExpected) {
   for (const BadSettings& bad : std::vector<BadSettings>{
            {"{", ErrorCode::kSettingsJson, ""},
+           {R"({"ik": {"warn_rms_m": 1e999}})", ErrorCode::kSettingsJson, ""},
            {"[]", ErrorCode::kSettingsValue, ""},
            {R"({"rra": 3})", ErrorCode::kSettingsValue, "rra"},
            {R"({"rrra": {}})", ErrorCode::kSettingsUnknownField, "rrra"},
@@ -58,6 +59,17 @@ TEST(Settings, FaultsNameTheFieldAndWhatWasExpected) {
       EXPECT_EQ(error.where().field, bad.field) << bad.json;
       EXPECT_EQ(error.where().file, "settings.json") << bad.json;
     }
+  }
+}
+
+TEST(Settings, DeepNestingIsRefused) {
+  const std::string deep =
+      R"({"name": )" + std::string(100000, '[') + std::string(100000, ']') + "}";
+  try {
+    readText(deep);
+    ADD_FAILURE() << "was accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kSettingsJson);
   }
 }
 
