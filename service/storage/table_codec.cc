@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -47,6 +49,36 @@ std::string encodeTable(const TimeSeries& table) {
   return out;
 }
 
+namespace {
+
+struct Header {
+  std::string name;
+  std::vector<std::string> labels;
+  std::vector<std::string> units;
+  std::uint64_t rows = 0;
+};
+
+std::uint64_t readCount(const nlohmann::json& value) {
+  require(value.is_number_unsigned(),
+          ErrorCode::kStorage,
+          "a stored table is damaged: its number of rows is none");
+  return value.get<std::uint64_t>();
+}
+
+Header readHeader(std::string_view text) {
+  try {
+    const nlohmann::json json = nlohmann::json::parse(text);
+    return {json.at("name").get<std::string>(),
+            json.at("labels").get<std::vector<std::string>>(),
+            json.at("units").get<std::vector<std::string>>(),
+            readCount(json.at("rows"))};
+  } catch (const nlohmann::json::exception&) {
+    throw Error(ErrorCode::kStorage, "a stored table is damaged: its header cannot be read");
+  }
+}
+
+}  // namespace
+
 TimeSeries decodeTable(const std::string& bytes) {
   std::uint64_t header_size = 0;
   const bool has_preamble =
@@ -56,17 +88,20 @@ TimeSeries decodeTable(const std::string& bytes) {
   require(header_size <= bytes.size() - kPreambleSize,
           ErrorCode::kStorage,
           "a stored table is damaged: its header breaks off");
-  const auto header = nlohmann::json::parse(bytes.substr(kPreambleSize, header_size));
-  TimeSeries table = makeTimeSeries(header.at("name"),
-                                    header.at("labels").get<std::vector<std::string>>(),
-                                    std::vector<double>(header.at("rows").get<std::size_t>()));
-  table.units = header.at("units").get<std::vector<std::string>>();
+  Header header = readHeader(std::string_view(bytes).substr(kPreambleSize, header_size));
   const std::size_t begin = kPreambleSize + header_size;
-  const std::size_t time_size = table.time.size() * sizeof(double);
-  const std::size_t values_size = sizeOfValues(table) * sizeof(double);
-  require(bytes.size() == begin + time_size + values_size,
+  const std::uint64_t cells = (bytes.size() - begin) / sizeof(double);
+  // Compared before anything is allocated; rows <= cells keeps the product from overflowing.
+  require(header.rows <= cells && header.rows * (header.labels.size() + 1) == cells &&
+              (bytes.size() - begin) % sizeof(double) == 0 &&
+              (header.units.empty() || header.units.size() == header.labels.size()),
           ErrorCode::kStorage,
           "a stored table is damaged: its size does not fit its header");
+  TimeSeries table = makeTimeSeries(
+      std::move(header.name), std::move(header.labels), std::vector<double>(header.rows));
+  table.units = std::move(header.units);
+  const std::size_t time_size = table.time.size() * sizeof(double);
+  const std::size_t values_size = sizeOfValues(table) * sizeof(double);
   if (time_size > 0) {
     std::memcpy(table.time.data(), bytes.data() + begin, time_size);
   }

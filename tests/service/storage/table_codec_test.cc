@@ -44,5 +44,28 @@ TEST(TableCodec, RefusesEveryCutAndForeignBytes) {
   EXPECT_THROW(decodeTable(bytes + "x"), Error);
 }
 
+std::string makeStored(const std::string& header, std::uint64_t header_size, std::size_t cells) {
+  std::string bytes = "GMT1" + std::string(sizeof header_size, ' ');
+  std::memcpy(&bytes[4], &header_size, sizeof header_size);
+  return bytes + header + std::string(cells * sizeof(double), ' ');
+}
+
+TEST(TableCodec, RefusesHeadersThatLie) {
+  const std::string huge =
+      R"({"name": "t", "labels": ["a"], "units": [], "rows": 4611686018427387904})";
+  const std::string units = R"({"name": "t", "labels": ["a"], "units": ["m", "s"], "rows": 1})";
+  const std::string real = R"({"name": "t", "labels": ["a"], "units": [], "rows": 1e300})";
+  for (const std::string& header :
+       {huge, units, real, std::string("{}"), std::string("[1]"), std::string("{\"name")}) {
+    try {
+      decodeTable(makeStored(header, header.size(), 2));
+      ADD_FAILURE() << header;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kStorage) << error.what();
+    }
+  }
+  EXPECT_THROW(decodeTable(makeStored("{}", ~std::uint64_t{0}, 2)), Error);
+}
+
 }  // namespace
 }  // namespace gaitmill
