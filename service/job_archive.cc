@@ -124,32 +124,46 @@ void JobArchive::addResults(const std::string& tenant,
         break;
       case ResultKind::kTime:
       case ResultKind::kCycle:
-        addTable(tenant, job.id, result, entries);
+        addTable(tenant, job, result, entries);
         break;
     }
   }
 }
 
 void JobArchive::addTable(const std::string& tenant,
-                          const std::string& job_id,
-                          const ResultInfo& result,
+                          const api::JobView& job,
+                          const ResultInfo& stored,
                           std::vector<ZipEntry>& entries) {
-  const bool is_cycle = result.kind == ResultKind::kCycle;
+  const bool is_cycle = stored.kind == ResultKind::kCycle;
   const api::TableAxis axis = is_cycle ? api::TableAxis::kCycle : api::TableAxis::kTime;
-  const std::string name = "results/" + makeArchiveName(result.name) + (is_cycle ? "_cycle" : "");
+  const std::string name = "results/" + makeArchiveName(stored.name) + (is_cycle ? "_cycle" : "");
   const auto add = [&](const char* extension, const auto& render) {
-    entries.push_back(
-        {name + extension, [this, tenant, job_id, result, render] {
-           return api::makeByteSource(render(decodeTable(
-               stores_.jobs.readResult(tenant, job_id, result.kind, result.name).bytes)));
-         }});
+    entries.push_back({name + extension, [this, tenant, job, stored, render] {
+                         return api::makeByteSource(render(readTable(tenant, job, stored)));
+                       }});
   };
-  add(".csv", [axis](const TimeSeries& table) { return api::renderTableCsv(table, axis); });
-  add(".json", [axis](const TimeSeries& table) { return api::renderTableJson(table, axis); });
+  add(".csv",
+      [axis](const api::ResultTable& result) { return api::renderTableCsv(result.table, axis); });
+  add(".json",
+      [axis](const api::ResultTable& result) { return api::renderTableJson(result, axis); });
   if (!is_cycle) {
-    add(".sto",
-        [this](const TimeSeries& table) { return encode_sto_(table, api::AngleUnit::kRadians); });
+    add(".sto", [this](const api::ResultTable& result) {
+      return encode_sto_(result.table, api::AngleUnit::kRadians);
+    });
   }
+}
+
+api::ResultTable JobArchive::readTable(const std::string& tenant,
+                                       const api::JobView& job,
+                                       const ResultInfo& stored) {
+  api::ResultTable result;
+  result.table =
+      decodeTable(stores_.jobs.readResult(tenant, job.id, stored.kind, stored.name).bytes);
+  result.stage = stored.stage;
+  result.provenance = job.provenance;
+  result.settings_json = job.settings_json;
+  result.is_final = true;
+  return result;
 }
 
 // The ingredients of the job's provenance. Another version of gaitmill than the one that took the

@@ -45,9 +45,12 @@ class JobArchive {
                   const api::JobView& job,
                   std::vector<ZipEntry>& entries);
   void addTable(const std::string& tenant,
-                const std::string& job_id,
-                const ResultInfo& result,
+                const api::JobView& job,
+                const ResultInfo& stored,
                 std::vector<ZipEntry>& entries);
+  api::ResultTable readTable(const std::string& tenant,
+                             const api::JobView& job,
+                             const ResultInfo& stored);
   std::string renderOrigin(const std::string& tenant, const api::JobView& job);
 
   Stores& stores_;

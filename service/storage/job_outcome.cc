@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "api/dto/error_body.h"
+#include "api/errors.h"
 #include "api/dto/object_reader.h"
 #include "service/storage/compression.h"
 #include "service/storage/job_rows.h"
@@ -230,7 +230,7 @@ bool JobStore::succeed(const JobTicket& ticket,
 }
 
 bool JobStore::fail(const JobTicket& ticket, const Error& error) {
-  const std::string text = api::renderErrorObject(error);
+  const std::string text = api::renderProblemObject(error);
   return writeAs(
       ticket, Size::kSmall, [&](Connection& db, const JobStanding& standing, Changes& changes) {
         changes.push_back(endJob(db, ticket.job_id, standing, {JobState::kFailed, text, ""}));

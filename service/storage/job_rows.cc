@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "api/dto/error_body.h"
+#include "api/errors.h"
 #include "api/dto/object_reader.h"
 #include "service/storage/clock.h"
 #include "service/storage/ids.h"
@@ -234,7 +234,7 @@ DeathRecord recordJobDeath(Connection& db,
   }
   const std::int64_t deaths = standing.deaths + 1;
   if (deaths >= JobStore::kMaxDeaths) {
-    const std::string error = api::renderErrorObject(describeLastDeath(reason, deaths));
+    const std::string error = api::renderProblemObject(describeLastDeath(reason, deaths));
     return {DeathOutcome::kFailed, {endJob(db, job_id, standing, {JobState::kFailed, error, ""})}};
   }
   return {DeathOutcome::kGivenBack, {}};

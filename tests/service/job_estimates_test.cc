@@ -5,12 +5,8 @@
 namespace gaitmill {
 namespace {
 
-const std::vector<StageEstimate> kMeans = {{"scale", 1, 0},
-                                           {"ik", 2, 0},
-                                           {"rra", 4, 0},
-                                           {"id", 1, 0},
-                                           {"so", 8, 0},
-                                           {"cmc", 16, 0}};
+const std::vector<StageEstimate> kMeans = {
+    {"scale", 1, 0}, {"ik", 2, 0}, {"rra", 4, 0}, {"id", 1, 0}, {"so", 8, 0}, {"cmc", 16, 0}};
 
 api::JobView makeJob(api::JobState state, std::vector<api::StageTiming> stages) {
   api::JobView job;
