@@ -1,11 +1,12 @@
 #include "service/known_marker_sets.h"
 
 #include <algorithm>
-#include <unordered_set>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/pipeline/understanding.h"
 #include "service/job_input.h"
 
 namespace gaitmill {
@@ -14,31 +15,16 @@ namespace {
 
 constexpr int kPageSize = 200;
 
-std::vector<std::string> readMarkers(const api::CatalogEntry& entry) {
+MarkerSetSpec readSet(const api::CatalogEntry& entry) {
   const auto summary = nlohmann::json::parse(entry.summary_json, nullptr, false);
   check(summary.is_object() && summary.contains("markers") && summary["markers"].is_array(),
         "the summary of a marker set has no markers");
-  return summary["markers"].get<std::vector<std::string>>();
-}
-
-api::MarkerSetMatch matchSet(const KnownMarkerSets::MarkerSet& set,
-                             const std::unordered_set<std::string>& measured) {
-  api::MarkerSetMatch match{set.id, {}, {}};
-  for (const std::string& marker : set.markers) {
-    (measured.count(marker) == 1 ? match.found : match.missing).push_back(marker);
+  MarkerSetSpec set;
+  set.name = entry.id;
+  for (const auto& marker : summary["markers"]) {
+    set.ik.markers.push_back({marker.get<std::string>(), 1.0});
   }
-  return match;
-}
-
-// The set that misses least comes first; of equal ones, the one that says more.
-bool isBetter(const api::MarkerSetMatch& a, const api::MarkerSetMatch& b) {
-  const auto missing_share = [](const api::MarkerSetMatch& match) {
-    return static_cast<double>(match.missing.size()) /
-           static_cast<double>(std::max<std::size_t>(match.found.size() + match.missing.size(), 1));
-  };
-  const double a_share = missing_share(a);
-  const double b_share = missing_share(b);
-  return a_share != b_share ? a_share < b_share : a.found.size() > b.found.size();
+  return set;
 }
 
 }  // namespace
@@ -46,18 +32,18 @@ bool isBetter(const api::MarkerSetMatch& a, const api::MarkerSetMatch& b) {
 KnownMarkerSets::KnownMarkerSets(const ShippedCatalog& shipped, CatalogStore& uploaded)
     : uploaded_(uploaded) {
   for (const ShippedDocument& document : shipped.markerSets()) {
-    shipped_.push_back({document.entry.id, readMarkers(document.entry)});
+    shipped_.push_back(readSet(document.entry));
   }
 }
 
-std::vector<KnownMarkerSets::MarkerSet> KnownMarkerSets::list(const std::string& tenant) const {
-  std::vector<MarkerSet> sets = shipped_;
+std::vector<MarkerSetSpec> KnownMarkerSets::list(const std::string& tenant) const {
+  std::vector<MarkerSetSpec> sets = shipped_;
   api::PageRequest page;
   page.limit = kPageSize;
   do {
     const api::Page<api::CatalogEntry> own = uploaded_.list(tenant, page);
     for (const api::CatalogEntry& entry : own.items) {
-      sets.push_back({entry.id, readMarkers(entry)});
+      sets.push_back(readSet(entry));
     }
     page.cursor = own.next_cursor;
   } while (!page.cursor.empty());
@@ -70,24 +56,22 @@ void KnownMarkerSets::require(const std::string& tenant, const std::string& id) 
     return;
   }
   const bool ships = std::any_of(
-      shipped_.begin(), shipped_.end(), [&id](const MarkerSet& set) { return set.id == id; });
+      shipped_.begin(), shipped_.end(), [&id](const MarkerSetSpec& set) { return set.name == id; });
   gaitmill::require(ships,
                     ErrorCode::kMarkerSetNotFound,
                     "there is no marker set '" + id + "'",
                     {"", 0, 0, "marker_set"});
 }
 
-void KnownMarkerSets::match(const std::vector<MarkerSet>& sets, api::TrialView& trial) {
+void KnownMarkerSets::match(const std::vector<MarkerSetSpec>& sets, api::TrialView& trial) {
   for (api::UnderstoodFile& file : trial.files) {
-    if (file.labels_kind != "markers") {
-      continue;
+    if (file.labels_kind == "markers") {
+      file.marker_sets.clear();
+      for (MarkerMatch& match : matchMarkers(file.labels, sets)) {
+        file.marker_sets.push_back(
+            {std::move(match.marker_set), std::move(match.found), std::move(match.missing)});
+      }
     }
-    const std::unordered_set<std::string> measured(file.labels.begin(), file.labels.end());
-    file.marker_sets.clear();
-    for (const MarkerSet& set : sets) {
-      file.marker_sets.push_back(matchSet(set, measured));
-    }
-    std::stable_sort(file.marker_sets.begin(), file.marker_sets.end(), isBetter);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "api/dto/trial.h"
+#include "core/data/marker_set.h"
 #include "service/shipped_catalog.h"
 #include "service/storage/catalog_store.h"
 
@@ -15,20 +16,17 @@ class KnownMarkerSets {
   /// @throws Error kInternal if what ships has no markers
   KnownMarkerSets(const ShippedCatalog& shipped, CatalogStore& uploaded);
 
-  struct MarkerSet {
-    std::string id;
-    std::vector<std::string> markers;  ///< that its inverse kinematics asks for
-  };
-  std::vector<MarkerSet> list(const std::string& tenant) const;
+  /// Their ids as names, and the markers that inverse kinematics asks for.
+  std::vector<MarkerSetSpec> list(const std::string& tenant) const;
 
   /// @throws Error kMarkerSetNotFound unless the tenant may name it
   void require(const std::string& tenant, const std::string& id) const;
 
   /// Fills in what each marker file of the trial has and lacks of each of the sets.
-  static void match(const std::vector<MarkerSet>& sets, api::TrialView& trial);
+  static void match(const std::vector<MarkerSetSpec>& sets, api::TrialView& trial);
 
  private:
-  std::vector<MarkerSet> shipped_;
+  std::vector<MarkerSetSpec> shipped_;
   CatalogStore& uploaded_;
 };
 

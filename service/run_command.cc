@@ -107,8 +107,9 @@ void runOnFiles(const RunOptions& options,
                 std::ostream& out,
                 std::ostream& progress) {
   const InputFile settings = readSettings(options);
-  functions.check_settings(settings);
-  const PipelineResult result = functions.run(readTrial(options), settings, makeEvents(progress));
+  const TrialInput trial = readTrial(options);
+  functions.check_input(trial, settings);
+  const PipelineResult result = functions.run(trial, settings, makeEvents(progress), {});
   for (const auto& [name, bytes] : result.files) {
     writeFile(options.out + "/" + name, bytes);
   }

@@ -105,10 +105,13 @@ void TrcParser::readFileType() {
 void TrcParser::readUnits(const Cell& value) {
   if (equalsIgnoringCase(value.text, "m") || equalsIgnoringCase(value.text, "meters")) {
     units_per_metre_ = 1.0;
+    file_.units = "m";
   } else if (equalsIgnoringCase(value.text, "mm")) {
     units_per_metre_ = 1000.0;
+    file_.units = "mm";
   } else if (equalsIgnoringCase(value.text, "cm")) {
     units_per_metre_ = 100.0;
+    file_.units = "cm";
   } else {
     fail(ErrorCode::kTrcUnits,
          "Units is '" + std::string(value.text) + "', expected m, cm or mm",

@@ -25,6 +25,7 @@ struct TrcOptions {
 
 struct TrcFile {
   MarkerTrajectories markers;  ///< [m], missing = NaN
+  std::string units;           ///< that the file has lengths in: "m", "cm" or "mm"
   std::vector<std::string> warnings;
 };
 

@@ -16,7 +16,7 @@ api::UploadedFile readSample(const std::string& path) {
   std::ifstream file("models/" + path, std::ios::binary);
   std::ostringstream bytes;
   bytes << file.rdbuf();
-  return {path.substr(path.rfind('/') + 1), bytes.str()};
+  return {path.substr(path.rfind('/') + 1), api::makeByteSource(bytes.str())};
 }
 
 TEST(InspectTrial, SaysWhatTheSampleTrialHolds) {
@@ -38,13 +38,23 @@ TEST(InspectTrial, SaysWhatTheSampleTrialHolds) {
   EXPECT_EQ(view.files[1].part, "grf");
   EXPECT_EQ(view.files[1].labels.size(), 2U);
   EXPECT_NEAR(view.files[1].rate.value(), 200.0, tol(1e-6));
+  EXPECT_EQ(markers.units, "mm");
+  ASSERT_FALSE(view.files[1].contacts.empty());
+  for (const api::ContactView& contact : view.files[1].contacts) {
+    EXPECT_EQ(contact.foot, contact.plate == "ground_force_r" ? "right" : "left") << contact.plate;
+    EXPECT_LT(contact.strike, contact.toe_off);
+  }
+  ASSERT_FALSE(view.events.empty());
+  for (std::size_t i = 1; i < view.events.size(); ++i) {
+    EXPECT_LE(view.events[i - 1].time, view.events[i].time);
+  }
   EXPECT_EQ(view.files[2].labels_kind, "columns");
   EXPECT_EQ(view.files[3].labels.size(), 80U);
 }
 
 TEST(InspectTrial, NamesPartFileAndPlaceOfAFault) {
   api::TrialUpload upload;
-  upload.files["grf"] = {"forces.mot", "this is\nnot a table\n"};
+  upload.files["grf"] = {"forces.mot", api::makeByteSource("this is\nnot a table\n")};
   try {
     inspectTrial(upload);
     FAIL();
@@ -57,14 +67,29 @@ TEST(InspectTrial, NamesPartFileAndPlaceOfAFault) {
 
 TEST(InspectTrial, ForceTablesNeedForces) {
   api::TrialUpload upload;
-  upload.files["grf"] = {"forces.sto",
-                         "x\nversion=1\nnRows=1\nnColumns=2\nendheader\ntime\ta\n0\t1\n"};
+  upload.files["grf"] = {
+      "forces.sto",
+      api::makeByteSource("x\nversion=1\nnRows=1\nnColumns=2\nendheader\ntime\ta\n0\t1\n")};
   try {
     inspectTrial(upload);
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::kGrfColumns);
   }
+}
+
+TEST(InspectTrial, ForcesThatNeverLoadAPlateAreAWarning) {
+  api::TrialUpload upload;
+  upload.files["grf"] = {
+      "forces.sto",
+      api::makeByteSource("x\nversion=1\nendheader\n"
+                          "time\tground_force_r_vx\tground_force_r_vy\tground_force_r_vz"
+                          "\tground_force_r_px\tground_force_r_py\tground_force_r_pz\n"
+                          "0\t0\t0\t0\t0\t0\t0\n0.1\t0\t0\t0\t0\t0\t0\n")};
+  const api::TrialView view = inspectTrial(upload);
+  EXPECT_EQ(view.files[0].labels, std::vector<std::string>{"ground_force_r"});
+  EXPECT_TRUE(view.files[0].contacts.empty());
+  ASSERT_FALSE(view.warnings.empty());
 }
 
 }  // namespace

@@ -19,6 +19,9 @@ class TrialServiceTest : public ::testing::Test {
   api::TrialPort& trials() { return fixture_.ports().trials; }
   bool isOnDisk(const std::string& bytes) const {
     for (const auto& entry : std::filesystem::directory_iterator(fixture_.folder().path())) {
+      if (!entry.is_regular_file()) {
+        continue;
+      }
       std::ifstream file(entry.path(), std::ios::binary);
       const std::string content{std::istreambuf_iterator<char>(file), {}};
       if (content.find(bytes) != std::string::npos) {
