@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/where.h"
 #include "core/model/free_coordinates.h"
 #include "core/model/muscle_paths.h"
 
@@ -40,7 +41,8 @@ std::vector<int> findFreeColumns(const Model& model,
     columns.push_back(free.findFree(model.getCoordinate(name)));
     require(columns.back() >= 0,
             ErrorCode::kInputCoordinates,
-            "coordinate '" + name + "' is locked or follows another: muscles have no moment of it");
+            "coordinate '" + name + "' is locked or follows another: muscles have no moment of it",
+            atCoordinate(name));
   }
   return columns;
 }

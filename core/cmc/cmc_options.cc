@@ -46,7 +46,8 @@ void CmcOptions::validate() const {
   }
   require(end_time >= start_time + initial_window + 2 * window,
           ErrorCode::kInputTimeRange,
-          "cmc: the time range is shorter than the initial stage and two windows");
+          "cmc: the time range is shorter than the initial stage and two windows",
+          {{}, 0, 0, "time_range_s"});
 }
 
 }  // namespace gaitmill

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/base/where.h"
 
 namespace gaitmill {
 namespace {
@@ -18,15 +19,17 @@ ExcitationLimits::ExcitationLimits(const ModelSpec& model, const CmcOptions& opt
     : max_excitation_(options.max_excitation), nodes_(model.muscles.size()) {
   for (const ExcitationLimit& limit : options.excitation_limits) {
     const int muscle = model.findMuscle(limit.muscle);
+    Where where = atMuscle(limit.muscle);
+    where.field = "excitation_limits";
     require(muscle >= 0,
             ErrorCode::kSettingsValue,
             "cmc: excitation limit for '" + limit.muscle + "', which is no muscle of the model",
-            {{}, 0, 0, "excitation_limits"});
+            where);
     auto& nodes = nodes_[static_cast<std::size_t>(muscle)];
     require(nodes.empty(),
             ErrorCode::kSettingsValue,
             "cmc: two excitation limits for '" + limit.muscle + "'",
-            {{}, 0, 0, "excitation_limits"});
+            where);
     nodes = limit.nodes;
   }
 }

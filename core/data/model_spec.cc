@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/base/error.h"
+#include "core/base/where.h"
 
 namespace gaitmill {
 
@@ -104,7 +105,7 @@ MotionKind findMotionKind(const ModelSpec& spec, const std::string& coordinate) 
   }
   throw Error(ErrorCode::kInputCoordinates,
               "the model has no coordinate '" + coordinate + "'",
-              {{}, 0, 0, coordinate});
+              atCoordinate(coordinate));
 }
 
 }  // namespace gaitmill

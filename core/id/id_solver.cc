@@ -124,7 +124,8 @@ IdSolver::Range IdSolver::findRange(const std::vector<double>& time,
   const Range range{std::max(after(start) - 1, 0), after(end) - 1};
   require(start <= end && range.last >= range.first,
           ErrorCode::kInputTimeRange,
-          "the motion has no rows in the time range");
+          "the motion has no rows in the time range",
+          {{}, 0, 0, "time_range_s"});
   return range;
 }
 

@@ -25,7 +25,8 @@ std::pair<int, int> findFrames(const std::vector<double>& time, const TimeRange&
   const TimeSeries axis{"markers", {}, {}, time, {}};
   require(!time.empty() && range.start <= time.back() && range.end >= time.front(),
           ErrorCode::kInputTimeRange,
-          "no marker frame lies in the time range");
+          "no marker frame lies in the time range",
+          {{}, 0, 0, "time_range_s"});
   return {axis.findNearestRow(std::max(range.start, time.front())),
           axis.findNearestRow(std::min(range.end, time.back()))};
 }

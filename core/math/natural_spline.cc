@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/where.h"
 
 namespace gaitmill {
 namespace {
@@ -155,10 +156,15 @@ void checkTable(const std::vector<double>& time,
     require(time[i] > time[i - 1],
             ErrorCode::kTableTimeOrder,
             "spline needs strictly increasing times, row " + std::to_string(i + 1) + " repeats " +
-                std::to_string(time[i]));
+                std::to_string(time[i]),
+            atTime(time[i]));
   }
-  require(
-      values.allFinite(), ErrorCode::kTableNumber, "spline through a value that is not a number");
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    require(values.row(static_cast<Eigen::Index>(i)).allFinite(),
+            ErrorCode::kTableNumber,
+            "spline through a value that is not a number",
+            atTime(time[i]));
+  }
 }
 
 // Fills the Taylor coefficients of every interval, each restarted from the data, so that round-off

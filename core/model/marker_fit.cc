@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "core/base/error.h"
+#include "core/base/where.h"
 
 namespace gaitmill {
 
@@ -121,7 +122,7 @@ void MarkerFit::findMarkers(const FitTasks& tasks, const std::vector<std::string
     require(std::isfinite(task.weight) && task.weight >= 0,
             ErrorCode::kInputValue,
             "the weight of a marker must be a finite number >= 0",
-            {{}, 0, 0, task.marker});
+            atMarker(task.marker));
     const int index = model_.spec().findMarker(task.marker);
     if (task.weight == 0) {
       continue;
@@ -190,7 +191,7 @@ void MarkerFit::findTargets(const FitTasks& tasks) {
     require(std::isfinite(task.weight) && task.weight >= 0,
             ErrorCode::kInputValue,
             "the weight of a coordinate must be a finite number >= 0",
-            {{}, 0, 0, task.coordinate});
+            atCoordinate(task.coordinate));
     const int f = free_.findFree(index);
     if (f >= 0 && task.weight > 0) {
       const double value = task.value.value_or(model_.coordinate(index).default_value);

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "core/base/error.h"
+#include "core/base/where.h"
 #include "core/math/scalar_function.h"
 #include "core/model/multibody_tree.h"
 #include "core/model/topology.h"
@@ -148,7 +149,7 @@ CoordinateIndex Model::getCoordinate(const std::string& name) const {
   throw Error(ErrorCode::kInputCoordinates,
               "the model has no coordinate '" + name + "'" +
                   (nearest.empty() ? "" : "; the nearest is '" + nearest + "'"),
-              {{}, 0, 0, name});
+              atCoordinate(name));
 }
 
 BodyIndex Model::getBody(const std::string& name) const {

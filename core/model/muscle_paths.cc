@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "core/base/error.h"
+#include "core/base/where.h"
 #include "core/model/wrap_cylinder.h"
 
 namespace gaitmill {
@@ -134,7 +135,7 @@ NamedWrap findWrapObject(const Model& model, const std::string& name, const std:
   }
   throw Error(ErrorCode::kModelReference,
               "muscle '" + muscle + "' wraps over '" + name + "', which is not in the model",
-              {{}, 0, 0, muscle});
+              atMuscle(muscle));
 }
 
 void addWraps(const Model& model, const MuscleSpec& muscle, Path& path) {
@@ -162,7 +163,7 @@ Path makePath(const Model& model, const MuscleSpec& muscle) {
           "muscle '" + muscle.name + "' has " + std::to_string(muscle.path.size()) +
               " path points and " + std::to_string(muscle.wraps.size()) +
               " wraps; expected 2 to 24 points and at most 4 wraps",
-          {{}, 0, 0, muscle.name});
+          atMuscle(muscle.name));
   Path path;
   for (const PathPointSpec& point : muscle.path) {
     const BodyIndex body = model.getBody(point.body);

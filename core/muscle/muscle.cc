@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/base/where.h"
 
 namespace gaitmill {
 namespace {
@@ -25,11 +26,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMaxSteps = 200;
 
 void requireField(bool ok, const MuscleSpec& spec, const char* field, double value) {
+  Where where = atMuscle(spec.name);
+  where.field = field;
   require(
       ok,
       ErrorCode::kMuscleParameter,
       "muscle '" + spec.name + "': " + field + " is " + std::to_string(value) + ", out of range",
-      {"", 0, 0, field});
+      where);
 }
 
 void validate(const MuscleSpec& s) {
@@ -309,6 +312,20 @@ Muscle::ForceLine Muscle::calcRigidForceLine(double path_length, double path_spe
                    damping_ * norm_velocity)};
 }
 
+namespace {
+
+/// The curves of one muscle; their faults carry its name.
+std::shared_ptr<const MuscleCurves> makeCurves(const MuscleSpec& spec) {
+  try {
+    return std::make_shared<const MuscleCurves>(spec.curves);
+  } catch (Error& error) {
+    error.completeWhere(atMuscle(spec.name));
+    throw;
+  }
+}
+
+}  // namespace
+
 std::vector<Muscle> makeMuscles(const std::vector<MuscleSpec>& specs) {
   struct Built {
     const MuscleCurvesSpec* spec;
@@ -322,7 +339,7 @@ std::vector<Muscle> makeMuscles(const std::vector<MuscleSpec>& specs) {
       return haveSameCurves(*b.spec, spec.curves);
     });
     if (same == built.end()) {
-      built.push_back({&spec.curves, std::make_shared<const MuscleCurves>(spec.curves)});
+      built.push_back({&spec.curves, makeCurves(spec)});
       same = std::prev(built.end());
     }
     muscles.emplace_back(spec, same->curves);

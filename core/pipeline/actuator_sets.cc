@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/where.h"
 #include "core/pipeline/settings.h"
 
 namespace gaitmill {
@@ -87,7 +88,7 @@ std::map<std::string, double> expandSides(const CoordinateValues& values, const 
               ErrorCode::kInputCoordinates,
               "the model has no coordinate '" + name + "'" +
                   (nearest.empty() ? "" : "; the nearest is '" + nearest + "'"),
-              {{}, 0, 0, name});
+              atCoordinate(name));
       expanded[name + "_r"] = value;
       expanded[name + "_l"] = value;
     }

@@ -86,7 +86,8 @@ TimeRange findCommonRange(const TimeRange& asked,
           ErrorCode::kInputTimeRange,
           "kinematics (" + std::to_string(motion.time.front()) + " to " +
               std::to_string(motion.time.back()) +
-              " s) and forces have no time in common with the range asked for");
+              " s) and forces have no time in common with the range asked for",
+          {{}, 0, 0, "time_range_s"});
   return range;
 }
 

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include "core/base/error.h"
+#include "core/base/where.h"
 #include "core/rra/actuated_body.h"
 #include "core/rra/residual_statistics.h"
 
@@ -26,7 +27,8 @@ std::vector<double> selectTimes(const std::vector<double>& time, const RraPassOp
   require(last > first,
           ErrorCode::kInputTimeRange,
           "the desired motion has no rows between " + std::to_string(pass.start_time) + " and " +
-              std::to_string(pass.end_time) + " s");
+              std::to_string(pass.end_time) + " s",
+          atTime(pass.start_time));
   return {time.begin() + first, time.begin() + last + 1};
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/where.h"
 #include "core/math/table_filters.h"
 #include "core/rra/mass_adjustment.h"
 #include "core/rra/motion_integrator.h"
@@ -66,7 +67,8 @@ int Simulation::countWindows() const {
   const int count = static_cast<int>(std::floor(windows + 1e-6)) - 1;
   require(count >= 1,
           ErrorCode::kInputTimeRange,
-          "the time range of a pass is shorter than two control windows");
+          "the time range of a pass is shorter than two control windows",
+          atTime(pass_.start_time));
   return count;
 }
 
@@ -99,7 +101,10 @@ void Simulation::run(const Progress& progress, RraPassResult& result) {
     result.counters.steps += work.steps;
     result.counters.rejected_steps += work.rejected;
     ++result.counters.windows;
-    require(state_.q.allFinite(), ErrorCode::kInputValue, "the tracking simulation diverged");
+    require(state_.q.allFinite(),
+            ErrorCode::kInputValue,
+            "the tracking simulation diverged",
+            atTime(state_.time));
     record(window + 1, ramp.to, result);
   }
   reportProgress(progress, 1.0);
@@ -208,7 +213,8 @@ RraResult solveRra(const ModelSpec& spec,
     used.end_time = std::min(used.end_time, coordinates.time.back());
     require(used.start_time < used.end_time,
             ErrorCode::kInputTimeRange,
-            "the motion does not reach into the time range of pass " + std::to_string(pass + 1));
+            "the motion does not reach into the time range of pass " + std::to_string(pass + 1),
+            atTime(used.start_time));
     const auto report = [&](double fraction) {
       return !progress || progress((pass + fraction) / limit);
     };

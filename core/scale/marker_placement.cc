@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/where.h"
 #include "core/model/model.h"
 #include "core/model/pose_search.h"
 #include "core/scale/scale_factors.h"
@@ -117,7 +118,7 @@ void addMarkers(const std::vector<MarkerSpec>& markers, ModelSpec& model) {
             ErrorCode::kModelReference,
             "marker '" + marker.name + "' sits on body '" + marker.body +
                 "', which the model does not have",
-            {{}, 0, 0, marker.name});
+            atMarker(marker.name));
     const int existing = model.findMarker(marker.name);
     if (existing >= 0) {
       model.markers[static_cast<std::size_t>(existing)] = marker;

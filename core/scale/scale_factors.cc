@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/where.h"
 
 namespace gaitmill {
 
@@ -79,7 +80,7 @@ MeasurementResult measureAll(const Model& model,
     require(fault.empty() || !spec.required,
             ErrorCode::kInputMarkers,
             "measurement '" + spec.name + "': " + fault,
-            {{}, 0, 0, names.first});
+            atMarker(names.first));
     if (!fault.empty()) {
       warnings.push_back("measurement '" + spec.name + "' leaves a pair out: " + fault);
     }
@@ -159,7 +160,8 @@ void warnOfUnusualFactors(const ScaleOptions& options, ScaleFactors& factors) {
 FrameRange findFrameRange(const std::vector<double>& time, const TimeRange& range) {
   require(!time.empty() && range.start <= time.back() && range.end >= time.front(),
           ErrorCode::kInputTimeRange,
-          "no frame of the static trial lies in the time range");
+          "no frame of the static trial lies in the time range",
+          {{}, 0, 0, "time_range_s"});
   const auto after_start = std::upper_bound(time.begin(), time.end(), range.start);
   const auto at_end = std::lower_bound(time.begin(), time.end(), range.end);
   const int count = static_cast<int>(time.size());

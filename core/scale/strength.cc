@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/base/error.h"
+#include "core/base/where.h"
 
 namespace gaitmill {
 
@@ -58,7 +59,7 @@ void scaleStrength(const ModelSpec& generic,
       require(index >= 0,
               ErrorCode::kModelReference,
               "the generic model has no muscle of this name to compare fiber lengths with",
-              {{}, 0, 0, muscle.name});
+              atMuscle(muscle.name));
       factor /= muscle.optimal_fiber_length /
                 generic.muscles[static_cast<std::size_t>(index)].optimal_fiber_length;
     }

@@ -36,7 +36,8 @@ std::vector<int> findRows(const std::vector<double>& time, const SoOptions& opti
   const TimeSeries axis{"coordinates", {}, {}, time, {}};
   require(!time.empty() && options.range.start <= time.back() && options.range.end >= time.front(),
           ErrorCode::kInputTimeRange,
-          "no row of the coordinates lies in the time range");
+          "no row of the coordinates lies in the time range",
+          {{}, 0, 0, "time_range_s"});
   const int first = axis.findNearestRow(std::max(options.range.start, time.front()));
   const int last = axis.findNearestRow(std::min(options.range.end, time.back()));
   std::vector<int> rows;

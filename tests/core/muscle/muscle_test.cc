@@ -263,7 +263,20 @@ TEST(Muscle, RefusesParametersOutOfRangeByName) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::kMuscleParameter);
     EXPECT_EQ(error.where().field, "fiber_damping");
+    EXPECT_EQ(error.where().muscle, "soleus");
     EXPECT_NE(error.message().find("'soleus'"), std::string::npos);
+  }
+}
+
+TEST(Muscle, FaultsOfItsCurvesCarryItsName) {
+  MuscleSpec spec = makeSpec(findLegMuscle("soleus"));
+  spec.curves.tendon_curviness = 2;
+  try {
+    makeMuscles({spec});
+    FAIL() << "did not throw";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kMuscleParameter);
+    EXPECT_EQ(error.where().muscle, "soleus");
   }
 }
 

@@ -241,6 +241,23 @@ TEST(PipelineTest, CancellingStopsWithinAStage) {
   }
 }
 
+// A marker that the marker set needs for a length is not in the standing trial.
+TEST(PipelineTest, AnErrorSaysWhereInTheComputation) {
+  TrialInput input = readSampleInput();
+  std::string& bytes = input.static_markers->bytes;
+  for (const std::string name : {"RASI", "LASI"}) {
+    bytes.replace(bytes.find(name), name.size(), "GONE" + name);
+  }
+  try {
+    Pipeline().run(input, makeSettings(R"({"last": "ik"})"), {});
+    FAIL() << "did not throw";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kInputMarkers);
+    EXPECT_EQ(error.where().stage, "scale");
+    EXPECT_FALSE(error.where().marker.empty()) << error.what();
+  }
+}
+
 TEST(PipelineTest, AMarkerSetIsAWordNotAPath) {
   nlohmann::json settings = nlohmann::json::parse(readFile("models/settings/default.json"));
   settings["scale"]["marker_set"] = "../settings/default";

@@ -219,6 +219,7 @@ TEST(ExpandSides, AnUnknownCoordinateNamesTheNearest) {
     FAIL() << "did not throw";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::kInputCoordinates);
+    EXPECT_EQ(error.where().coordinate, "hip_flexon");
     EXPECT_NE(error.message().find("hip_flexion"), std::string::npos);
   }
 }
