@@ -26,10 +26,13 @@ ALTER TABLE trials ADD COLUMN label TEXT NOT NULL DEFAULT '';
 ALTER TABLE trials ADD COLUMN bytes INTEGER NOT NULL DEFAULT 0;
 ALTER TABLE trials ADD COLUMN submission_key TEXT NOT NULL DEFAULT '';
 
--- `understood` was the list of files; now it is everything understood.
-UPDATE trials SET understood = '{"files":' || understood || ',"events":[]}', bytes = (
-  SELECT coalesce(sum(size), 0) FROM trial_files JOIN blobs ON blobs.id = blob_id
-  WHERE trial_id = trials.id);
+-- `understood` was the list of files; now it is everything understood, warnings included.
+UPDATE trials SET
+  understood = '{"files":' || understood || ',"events":[],"warnings":' || warnings || '}',
+  bytes = (
+    SELECT coalesce(sum(size), 0) FROM trial_files JOIN blobs ON blobs.id = blob_id
+    WHERE trial_id = trials.id);
+ALTER TABLE trials DROP COLUMN warnings;
 
 -- Ids sort by time, so every list is a range of one of these.
 CREATE INDEX trials_by_tenant ON trials (tenant, id);

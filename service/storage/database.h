@@ -28,7 +28,7 @@ struct DatabaseOptions {
   std::int64_t max_size = 0;  ///< [bytes] the file may grow to; 0 = as large as the disk
   /// [bytes] that uploads leave free on the disk, so that running jobs can still be finished.
   std::int64_t free_floor = std::int64_t{64} << 20;
-  std::string vfs;  ///< the file layer by its SQLite name; empty = the usual one
+  std::string vfs{};  ///< the file layer by its SQLite name; empty = the usual one
 };
 
 /// A consistent view of the database for one thread, for as long as it lives: keep it short.

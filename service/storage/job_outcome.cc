@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "api/errors.h"
 #include "api/dto/object_reader.h"
+#include "api/errors.h"
 #include "service/storage/compression.h"
 #include "service/storage/job_rows.h"
 #include "service/storage/job_store.h"

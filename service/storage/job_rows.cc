@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "api/errors.h"
 #include "api/dto/object_reader.h"
+#include "api/errors.h"
 #include "service/storage/clock.h"
 #include "service/storage/ids.h"
 #include "service/storage/job_states.h"

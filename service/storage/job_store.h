@@ -70,7 +70,7 @@ struct ResultItem {
   ResultKind kind;
   std::string name;
   std::string bytes;
-  std::string stage;  ///< that made it; empty = the finished stage, or the job as a whole
+  std::string stage{};  ///< that made it; empty = the finished stage, or the job as a whole
 };
 
 struct ResultInfo {

@@ -4,14 +4,10 @@
 #include <optional>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
-#include "api/dto/object_reader.h"
 #include "core/base/error.h"
 #include "service/storage/blob_store.h"
 #include "service/storage/ids.h"
 #include "service/storage/list_query.h"
-#include "service/storage/sql/blobs.h"
 #include "service/storage/sql/trials.h"
 #include "service/storage/usage_rows.h"
 
@@ -34,9 +30,8 @@ api::TrialView readView(const Statement& row) {
   trial.subject.height = row.real(3);
   trial.subject.marker_set = row.optionalText(4);
   trial.subject.options = row.text(5);
-  trial.warnings = nlohmann::json::parse(row.text(7)).get<std::vector<std::string>>();
-  trial.subject.subject = row.text(8);
-  trial.subject.label = row.text(9);
+  trial.subject.subject = row.text(7);
+  trial.subject.label = row.text(8);
   return trial;
 }
 
@@ -59,13 +54,12 @@ void insertTrial(Connection& db,
       .bind(5, view.subject.marker_set)
       .bind(6, view.subject.options)
       .bind(7, api::encodeUnderstanding(view))
-      .bind(8, api::dumpJson(view.warnings))
-      .bind(9, trial.tenant)
-      .bind(10, trial.key_id)
-      .bind(11, view.subject.subject)
-      .bind(12, view.subject.label)
-      .bind(13, bytes)
-      .bind(14, trial.submission_key)
+      .bind(8, trial.tenant)
+      .bind(9, trial.key_id)
+      .bind(10, view.subject.subject)
+      .bind(11, view.subject.label)
+      .bind(12, bytes)
+      .bind(13, trial.submission_key)
       .run();
 }
 
@@ -272,8 +266,7 @@ api::TrialView TrialStore::putFile(const std::string& tenant,
       db.prepare(sql::kChangeTrial)
           .bind(1, trial_id)
           .bind(2, api::encodeUnderstanding(view))
-          .bind(3, api::dumpJson(view.warnings))
-          .bind(4, growth)
+          .bind(3, growth)
           .run();
       chargeUsage(db, tenant, owner.key_id, {growth, 0, 0, 0, 0}, quota);
       return view;

@@ -16,7 +16,8 @@ inline constexpr const char* kFindEntry =
     "(SELECT size FROM blobs WHERE blobs.id = catalog.blob_id), "
     "(SELECT sha256 FROM blobs WHERE blobs.id = catalog.blob_id), blob_id, key_id FROM catalog "
     "WHERE id = ?1 AND tenant = ?2 AND kind = ?3";
-inline constexpr const char* kModelIsUsed = "SELECT 1 FROM jobs WHERE model_id = ?1 LIMIT 1";
+inline constexpr const char* kModelIsUsed =
+    "SELECT 1 FROM jobs WHERE model_id = ?1 AND model_id <> '' LIMIT 1";
 inline constexpr const char* kMarkerSetIsUsed =
     "SELECT 1 FROM trials WHERE marker_set = ?1 AND tenant = ?2 LIMIT 1";
 inline constexpr const char* kDropEntry = "DELETE FROM catalog WHERE id = ?1";

@@ -4,20 +4,20 @@ namespace gaitmill::sql {
 
 inline constexpr const char* kAddTrial =
     "INSERT INTO trials (id, created_at, mass_kg, height_m, marker_set, options, understood, "
-    "warnings, tenant, key_id, subject, label, bytes, submission_key) "
-    "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14)";
+    "tenant, key_id, subject, label, bytes, submission_key) "
+    "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13)";
 inline constexpr const char* kSelectTrials =
-    "SELECT id, created_at, mass_kg, height_m, marker_set, options, understood, warnings, subject, "
-    "label FROM trials";
+    "SELECT id, created_at, mass_kg, height_m, marker_set, options, understood, subject, label "
+    "FROM trials";
 inline constexpr const char* kFindTrial =
-    "SELECT id, created_at, mass_kg, height_m, marker_set, options, understood, warnings, subject, "
-    "label FROM trials WHERE id = ?1 AND tenant = ?2";
+    "SELECT id, created_at, mass_kg, height_m, marker_set, options, understood, subject, label "
+    "FROM trials WHERE id = ?1 AND tenant = ?2";
 inline constexpr const char* kFindTrialOwner =
     "SELECT key_id, bytes FROM trials WHERE id = ?1 AND tenant = ?2";
 inline constexpr const char* kFindTrialBySubmission =
     "SELECT id FROM trials WHERE tenant = ?1 AND submission_key = ?2 AND submission_key <> ''";
 inline constexpr const char* kChangeTrial =
-    "UPDATE trials SET understood = ?2, warnings = ?3, bytes = bytes + ?4 WHERE id = ?1";
+    "UPDATE trials SET understood = ?2, bytes = bytes + ?3 WHERE id = ?1";
 inline constexpr const char* kTrialHasJobs = "SELECT 1 FROM jobs WHERE trial_id = ?1 LIMIT 1";
 inline constexpr const char* kDropTrial = "DELETE FROM trials WHERE id = ?1";
 inline constexpr const char* kListUnusedTrials =

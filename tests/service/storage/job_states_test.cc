@@ -18,9 +18,9 @@ TEST(JobStates, FinalStatesNeverChange) {
   }
 }
 
-TEST(JobStates, WorkBeginsInTheQueueAndMayReturnToIt) {
+TEST(JobStates, WorkBeginsInTheQueueAndNeverReturnsToIt) {
   EXPECT_TRUE(isAllowedChange(State::kQueued, State::kRunning));
-  EXPECT_TRUE(isAllowedChange(State::kRunning, State::kQueued));
+  EXPECT_FALSE(isAllowedChange(State::kRunning, State::kQueued));
   EXPECT_FALSE(isAllowedChange(State::kQueued, State::kSucceeded));
   EXPECT_FALSE(isAllowedChange(State::kQueued, State::kFailed));
 }

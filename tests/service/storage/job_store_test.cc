@@ -1,195 +1,283 @@
 #include "service/storage/job_store.h"
 
-#include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
-#include "service/storage/trial_store.h"
-#include "tests/support/temporary_folder.h"
+#include "service/storage/key_store.h"
+#include "tests/service/storage/storage_fixture.h"
 
 namespace gaitmill {
 namespace {
 
 using State = api::JobState;
+using JobStoreTest = StorageTest;
 
-class JobStoreTest : public ::testing::Test {
- protected:
-  JobStoreTest() { trial_ = TrialStore(database_).add({{70, 1.7, std::nullopt, "{}"}, {}}, {}).id; }
+TEST_F(JobStoreTest, FindsWhatWasSubmitted) {
+  NewTrial trial = makeTrial({});
+  trial.subject.subject = "S01";
+  NewJob job = makeJob(trials_.add(trial).id);
+  job.label = "first";
+  job.model_id = "rajagopal2016";
+  const api::JobView view = find(jobs_.submit(job));
+  EXPECT_EQ(view.trial_id, job.trial_id);
+  EXPECT_EQ(view.subject, "S01");
+  EXPECT_EQ(view.label, "first");
+  EXPECT_EQ(view.model_id, "rajagopal2016");
+  EXPECT_EQ(view.settings_name, "default");
+  EXPECT_EQ(view.settings_json, R"({"a":1})");
+  EXPECT_EQ(view.provenance, "abc");
+  EXPECT_EQ(view.state, State::kQueued);
+  EXPECT_EQ(view.version, 1);
+  EXPECT_EQ(view.attempt, 0);
+  EXPECT_GT(view.submitted_at, 0);
+  EXPECT_FALSE(view.started_at || view.finished_at || view.error);
+  EXPECT_EQ(view.jobs_ahead, 0);
+}
 
-  std::string submit() { return store_.submit(trial_, "default", R"({"a":1})"); }
-  JobTicket claim() { return store_.claimNext().value().ticket; }
-  State stateOf(const std::string& id) { return store_.find(id).state; }
-  template <class Call>
-  ErrorCode codeOf(Call call) {
-    try {
-      call();
-    } catch (const Error& error) {
-      return error.code();
-    }
-    return ErrorCode::kInternal;
+TEST_F(JobStoreTest, UnknownTrialModelAndJobAreNamed) {
+  EXPECT_EQ(codeOf([&] { jobs_.submit(makeJob("tri_none")); }), ErrorCode::kTrialNotFound);
+  EXPECT_EQ(codeOf([&] { jobs_.submit(makeJob(trial_, "lab_b")); }), ErrorCode::kTrialNotFound);
+  NewJob job = makeJob(trial_);
+  job.model_id = "mod_01hf3v6k9e2m8xw7p0q4t5r6s1";
+  EXPECT_EQ(codeOf([&] { jobs_.submit(job); }), ErrorCode::kModelNotFound);
+}
+
+TEST_F(JobStoreTest, AnotherTenantsJobDoesNotExist) {
+  const std::string id = submit();
+  const auto expect_absent = [](auto call) {
+    EXPECT_EQ(codeOf(call), ErrorCode::kJobNotFound);
+  };
+  for (const std::string& other : {std::string("job_none"), id}) {
+    expect_absent([&] { jobs_.find("lab_b", other); });
+    expect_absent([&] { jobs_.requestCancel("lab_b", other); });
+    expect_absent([&] { jobs_.remove("lab_b", other); });
+    expect_absent([&] { jobs_.listEvents("lab_b", other, 0); });
+    expect_absent([&] { jobs_.listResults("lab_b", other); });
+    expect_absent([&] { jobs_.listFiles("lab_b", other); });
+    expect_absent([&] { jobs_.readFile("lab_b", other, "x"); });
+    expect_absent([&] { jobs_.readResult("lab_b", other, ResultKind::kTime, "x"); });
   }
-
-  TemporaryFolder folder_;
-  Database database_{folder_ / "mill.db"};
-  JobStore store_{database_};
-  std::string trial_;
-};
-
-TEST_F(JobStoreTest, OldestJobIsClaimedFirst) {
-  const std::string first = submit();
-  const std::string second = submit();
-  EXPECT_EQ(store_.find(second).jobs_ahead, 1);
-  const ClaimedJob job = store_.claimNext().value();
-  EXPECT_EQ(job.ticket.job_id, first);
-  EXPECT_EQ(job.trial_id, trial_);
-  EXPECT_EQ(job.settings_json, R"({"a":1})");
-  EXPECT_EQ(stateOf(first), State::kRunning);
-  EXPECT_EQ(store_.find(second).jobs_ahead, 0);
-  EXPECT_EQ(claim().job_id, second);
-  EXPECT_FALSE(store_.claimNext().has_value());
+  EXPECT_TRUE(jobs_.list("lab_b", {}, {}).items.empty());
 }
 
-TEST_F(JobStoreTest, UnknownTrialAndJobAreNamed) {
-  EXPECT_EQ(codeOf([&] { store_.submit("tri_none", "", "{}"); }), ErrorCode::kTrialNotFound);
-  EXPECT_EQ(codeOf([&] { store_.find("job_none"); }), ErrorCode::kJobNotFound);
-  EXPECT_EQ(codeOf([&] { store_.requestCancel("job_none"); }), ErrorCode::kJobNotFound);
-}
-
-TEST_F(JobStoreTest, ProgressAndWarningsOfTheLastAttemptAreKept) {
-  const std::string id = submit();
-  JobTicket ticket = claim();
-  EXPECT_TRUE(store_.saveProgress(ticket, {{"scale", 1.0, 1.0}, {"ik", 0.5, 0.2}}, {"old"}));
-  store_.requeue(ticket);
-  ticket = claim();
-  EXPECT_TRUE(store_.saveProgress(ticket, {{"scale", 2.0, 0.5}}, {"one"}));
-  EXPECT_TRUE(store_.saveProgress(ticket, {{"scale", 3.0, 1.0}}, {"two"}));
-  const api::JobView job = store_.find(id);
-  ASSERT_EQ(job.stages.size(), 1U);
-  EXPECT_EQ(job.stages[0].seconds, 3.0);
-  EXPECT_EQ(job.warnings, (std::vector<std::string>{"one", "two"}));
-  EXPECT_EQ(job.attempt, 2);
-}
-
-TEST_F(JobStoreTest, ResultsComeWithSuccessAndNotBefore) {
-  const std::string id = submit();
-  const JobTicket ticket = claim();
-  EXPECT_EQ(codeOf([&] { store_.listFiles(id); }), ErrorCode::kResultNotReady);
-  EXPECT_TRUE(store_.succeed(
-      ticket, {{ResultKind::kFile, "ik.mot", "bytes"}, {ResultKind::kTime, "moments", "table"}}));
-  EXPECT_EQ(stateOf(id), State::kSucceeded);
-  EXPECT_EQ(store_.readFile(id, "ik.mot").bytes, "bytes");
-  EXPECT_EQ(store_.readResult(id, ResultKind::kTime, "moments"), "table");
-  EXPECT_EQ(store_.listFiles(id).size(), 1U);
-  EXPECT_EQ(codeOf([&] { store_.readFile(id, "moments"); }), ErrorCode::kResultNotFound);
-}
-
-TEST_F(JobStoreTest, DamagedResultsAreNotHandedOut) {
-  const std::string id = submit();
-  store_.succeed(claim(), {{ResultKind::kFile, "ik.mot", "bytes"}});
-  database_.connection().runScript("UPDATE results SET bytes = 'bytez'");
-  EXPECT_EQ(codeOf([&] { store_.readFile(id, "ik.mot"); }), ErrorCode::kStorage);
-}
-
-// A worker that has lost its job, for instance because it slept too long, changes nothing.
-TEST_F(JobStoreTest, VoidTicketWritesNothing) {
-  const std::string id = submit();
-  const JobTicket old = claim();
-  store_.requeue(old);
-  const JobTicket current = claim();
-  EXPECT_FALSE(store_.saveProgress(old, {{"ik", 1, 1}}, {"late"}));
-  EXPECT_FALSE(store_.succeed(old, {{ResultKind::kFile, "late", ""}}));
-  EXPECT_FALSE(store_.fail(old, "{}"));
-  EXPECT_FALSE(store_.cancelRunning(old));
-  EXPECT_FALSE(store_.requeue(old));
-  EXPECT_EQ(stateOf(id), State::kRunning);
-  EXPECT_TRUE(store_.succeed(current, {}));
-  EXPECT_FALSE(store_.fail(current, "{}")) << "final states never change";
-  EXPECT_TRUE(store_.listFiles(id).empty());
+TEST_F(JobStoreTest, ListsNewestFirstByEveryFilter) {
+  std::vector<std::string> ids;
+  for (int i = 0; i < 6; ++i) {
+    NewJob job = makeJob(trial_);
+    job.label = i < 2 ? "early" : "late";
+    ids.push_back(jobs_.submit(job));
+  }
+  claim();
+  const auto page = jobs_.list(kTenant, {}, {"", 4});
+  ASSERT_EQ(page.items.size(), 4U);
+  EXPECT_EQ(page.items[0].id, ids[5]);
+  EXPECT_EQ(page.items[0].jobs_ahead, 4);
+  EXPECT_EQ(page.items[0].settings_json, "");
+  EXPECT_EQ(jobs_.list(kTenant, {}, {page.next_cursor, 4}).items.size(), 2U);
+  const auto count = [this](const api::ListFilter& filter) {
+    return jobs_.list(kTenant, filter, {"", 200}).items.size();
+  };
+  api::ListFilter filter;
+  filter.label = "late";
+  EXPECT_EQ(count(filter), 4U);
+  filter.state = "running";
+  EXPECT_EQ(count(filter), 0U);
+  filter.label = "early";
+  EXPECT_EQ(count(filter), 1U);
+  filter.trial_id = trial_;
+  EXPECT_EQ(count(filter), 1U);
+  filter.trial_id = "tri_other";
+  EXPECT_EQ(count(filter), 0U);
+  filter = {};
+  filter.state = "lost";
+  EXPECT_EQ(codeOf([&] { count(filter); }), ErrorCode::kRequestField);
+  EXPECT_EQ(codeOf([&] { jobs_.list(kTenant, {}, {"tri_1", 5}); }), ErrorCode::kRequestField);
 }
 
 TEST_F(JobStoreTest, CancelEndsQueuedJobsAndMarksRunningOnes) {
   const std::string running = submit();
   const std::string queued = submit();
   const JobTicket ticket = claim();
-  store_.requestCancel(queued);
+  jobs_.requestCancel(kTenant, queued);
   EXPECT_EQ(stateOf(queued), State::kCancelled);
-  store_.requestCancel(running);
+  jobs_.requestCancel(kTenant, running);
   EXPECT_EQ(stateOf(running), State::kRunning);
-  EXPECT_TRUE(store_.find(running).cancel_requested);
-  store_.cancelRunning(ticket);
-  store_.requestCancel(running);
+  EXPECT_TRUE(find(running).cancel_requested);
+  EXPECT_TRUE(jobs_.findStanding(ticket).cancel_requested);
+  EXPECT_TRUE(jobs_.heartbeat(ticket, kLease).cancel_requested);
+  EXPECT_TRUE(jobs_.cancelRunning(ticket));
+  jobs_.requestCancel(kTenant, running);
   EXPECT_EQ(stateOf(running), State::kCancelled);
+}
+
+TEST_F(JobStoreTest, CancelEndsARunningJobThatNobodyHolds) {
+  const std::string id = submit();
+  EXPECT_TRUE(jobs_.giveBack(claim()));
+  jobs_.requestCancel(kTenant, id);
+  EXPECT_EQ(stateOf(id), State::kCancelled);
+  EXPECT_FALSE(jobs_.claimNext("serve:1", kLease).has_value());
 }
 
 TEST_F(JobStoreTest, FinishedJobCannotBeCancelled) {
   const std::string id = submit();
-  store_.fail(claim(), R"({"code":"x"})");
-  EXPECT_EQ(codeOf([&] { store_.requestCancel(id); }), ErrorCode::kJobState);
-  EXPECT_EQ(store_.find(id).error, R"({"code":"x"})");
+  jobs_.fail(claim(), Error(ErrorCode::kInputMarkers, "no markers", {"walk.trc", 3}));
+  EXPECT_EQ(codeOf([&] { jobs_.requestCancel(kTenant, id); }), ErrorCode::kJobState);
+  const auto error = nlohmann::json::parse(find(id).error.value());
+  EXPECT_EQ(error["code"], "input.markers");
+  EXPECT_EQ(error["where"]["line"], 3);
 }
 
-TEST_F(JobStoreTest, RecoverRequeuesOrphansAndHonoursCancels) {
-  const std::string orphan = submit();
-  const std::string unwanted = submit();
-  claim();
-  claim();
-  store_.requestCancel(unwanted);
-  const Recovery recovery = store_.recover();
-  EXPECT_EQ(recovery.requeued, 1);
-  EXPECT_EQ(recovery.cancelled, 1);
-  EXPECT_EQ(stateOf(orphan), State::kQueued);
-  EXPECT_EQ(stateOf(unwanted), State::kCancelled);
-}
-
-TEST_F(JobStoreTest, JobThatDiesThreeTimesFailsAndOthersGoOn) {
-  const std::string deadly = submit();
-  for (int death = 0; death < JobStore::kMaxDeaths; ++death) {
-    EXPECT_EQ(stateOf(deadly), State::kQueued);
-    claim();
-    store_.recover();
-  }
-  const api::JobView job = store_.find(deadly);
-  EXPECT_EQ(job.state, State::kFailed);
-  EXPECT_EQ(nlohmann::json::parse(job.error.value())["code"], "job.abandoned");
-  const std::string other = submit();
-  EXPECT_EQ(claim().job_id, other);
-}
-
-TEST_F(JobStoreTest, StoppingTheServiceIsNoDeath) {
+TEST_F(JobStoreTest, OnlyFinalJobsAreRemoved) {
   const std::string id = submit();
-  for (int stop = 0; stop < 10; ++stop) {
-    EXPECT_TRUE(store_.requeue(claim()));
+  EXPECT_EQ(codeOf([&] { jobs_.remove(kTenant, id); }), ErrorCode::kJobState);
+  const JobTicket ticket = claim();
+  EXPECT_EQ(codeOf([&] { jobs_.remove(kTenant, id); }), ErrorCode::kJobState);
+  jobs_.succeed(ticket, {{ResultKind::kFile, "ik.mot", "bytes", "ik"}}, "pass");
+  jobs_.remove(kTenant, id);
+  EXPECT_EQ(codeOf([&] { find(id); }), ErrorCode::kJobNotFound);
+  for (const char* sql : {"SELECT count(*) FROM results",
+                          "SELECT count(*) FROM job_events",
+                          "SELECT count(*) FROM job_settings"}) {
+    EXPECT_EQ(queryInteger(database_, sql), 0) << sql;
   }
-  store_.recover();
-  EXPECT_EQ(stateOf(id), State::kQueued);
+  EXPECT_NO_THROW(trials_.remove(kTenant, trial_));
 }
 
-TEST_F(JobStoreTest, ManyWorkersNeverClaimTheSameJob) {
-  constexpr int kJobs = 60;
-  for (int i = 0; i < kJobs; ++i) {
-    submit();
+TEST_F(JobStoreTest, EventsTellTheWholeLifeInOrder) {
+  const std::string id = submit();
+  const JobTicket ticket = claim();
+  jobs_.saveProgress(ticket, {{"ik", 0.1, 0.0}}, {});
+  jobs_.saveProgress(ticket, {{"ik", 0.2, 0.3}}, {"careful"});
+  jobs_.saveProgress(ticket, {{"ik", 0.3, 0.6}}, {});
+  jobs_.saveProgress(ticket, {{"ik", 0.3, 0.6}}, {});
+  jobs_.saveStage(ticket, {"ik", "checkpoint", {}, {{"ik", 1.0, 1.0}}, {}});
+  jobs_.succeed(ticket, {}, "pass");
+  const auto events = jobs_.listEvents(kTenant, id, 0);
+  std::vector<std::string> told;
+  for (const api::JobEvent& event : events) {
+    told.push_back(event.kind + " " + event.data);
   }
-  std::vector<std::vector<std::string>> claimed(4);
-  std::vector<std::thread> threads;
-  for (auto& mine : claimed) {
-    threads.emplace_back([this, &mine] {
-      while (const auto job = store_.claimNext()) {
-        mine.push_back(job->ticket.job_id);
-      }
-    });
+  const std::vector<std::string> expected = {
+      R"(state {"state":"queued"})",
+      R"(state {"attempt":1,"state":"running"})",
+      R"(stage {"seconds":0.1,"stage":"ik","status":"started"})",
+      R"(warning {"message":"careful"})",
+      R"(stage {"seconds":1.0,"stage":"ik","status":"finished"})",
+      R"(state {"state":"succeeded"})"};
+  EXPECT_EQ(told, expected) << "progress is told only as long as it is the news";
+  EXPECT_EQ(events.back().id, find(id).version);
+  EXPECT_EQ(jobs_.listEvents(kTenant, id, events[3].id).size(), 2U);
+  EXPECT_EQ(jobs_.listEvents(kTenant, id, 0, 2).size(), 2U);
+}
+
+TEST_F(JobStoreTest, VersionGrowsWithWhatTheUserSeesAndNothingElse) {
+  const std::string id = submit();
+  const JobTicket ticket = claim();
+  const std::int64_t claimed = find(id).version;
+  jobs_.heartbeat(ticket, kLease);
+  EXPECT_EQ(find(id).version, claimed);
+  jobs_.saveProgress(ticket, {{"ik", 0.1, 0.5}}, {});
+  const std::int64_t progressed = find(id).version;
+  EXPECT_GT(progressed, claimed);
+  jobs_.saveProgress(ticket, {{"ik", 0.1, 0.5}}, {});
+  EXPECT_EQ(find(id).version, progressed);
+  jobs_.requestCancel(kTenant, id);
+  EXPECT_GT(find(id).version, progressed);
+}
+
+TEST_F(JobStoreTest, ListenersAndOtherProcessesHearOfEveryChange) {
+  std::vector<std::string> heard;
+  jobs_.setListener([&heard](const JobChange& change) { heard.push_back(change.job_id); });
+  const std::int64_t before = jobs_.lastChange();
+  const std::string first = submit();
+  const std::string second = submit();
+  claim();
+  EXPECT_EQ(heard, (std::vector<std::string>{first, second, first}));
+  Database other({folder_ / "mill.db", DatabaseUse::kWork});
+  JobStore elsewhere(other);
+  EXPECT_EQ(elsewhere.lastChange(), before + 3);
+  const auto changes = elsewhere.listChanges(before);
+  ASSERT_EQ(changes.size(), 2U) << "each job once, at its last change";
+  EXPECT_EQ(changes[0].job_id, second);
+  EXPECT_EQ(changes[1].job_id, first);
+  EXPECT_TRUE(elsewhere.listChanges(changes[1].change).empty());
+}
+
+TEST_F(JobStoreTest, SubmissionRepeatedUnderItsKeyIsOneJob) {
+  NewJob job = makeJob(trial_);
+  job.submission_key = "k1";
+  const std::string id = jobs_.submit(job);
+  EXPECT_EQ(jobs_.submit(job), id);
+  job.submission_key = "k2";
+  EXPECT_NE(jobs_.submit(job), id);
+}
+
+TEST_F(JobStoreTest, QuotasOfAKeyHold) {
+  NewJob job = makeJob(trial_);
+  job.key_id = "key_1";
+  job.frames = 100;
+  job.pixels = 1000;
+  const std::string id = jobs_.submit(job, {0, 2, 250, 5000});
+  jobs_.submit(job, {0, 2, 250, 5000});
+  EXPECT_EQ(codeOf([&] { jobs_.submit(job, {0, 2, 0, 0}); }), ErrorCode::kQuotaExceeded);
+  EXPECT_EQ(codeOf([&] { jobs_.submit(job, {0, 0, 250, 0}); }), ErrorCode::kQuotaExceeded);
+  EXPECT_EQ(codeOf([&] { jobs_.submit(job, {0, 0, 0, 2500}); }), ErrorCode::kQuotaExceeded);
+  const Usage usage = KeyStore(database_).findUsage(kTenant, "key_1");
+  EXPECT_EQ(usage.jobs, 2);
+  EXPECT_EQ(usage.frames, 200);
+  EXPECT_EQ(usage.pixels, 2000);
+  jobs_.requestCancel(kTenant, id);
+  jobs_.remove(kTenant, id);
+  EXPECT_NO_THROW(jobs_.submit(job, {0, 2, 250, 5000}));
+}
+
+TEST_F(JobStoreTest, StatisticsCountTheQueue) {
+  EXPECT_FALSE(jobs_.calcStatistics().oldest_queued_at.has_value());
+  const std::string first = submit();
+  submit();
+  submit();
+  jobs_.fail(claim(), Error(ErrorCode::kInternal, ""));
+  jobs_.giveBack(claim());
+  const QueueStatistics statistics = jobs_.calcStatistics();
+  EXPECT_EQ(statistics.jobs.at("failed"), 1);
+  EXPECT_EQ(statistics.jobs.at("running"), 1);
+  EXPECT_EQ(statistics.jobs.at("queued"), 1);
+  EXPECT_EQ(statistics.jobs.at("cancelled"), 0);
+  EXPECT_EQ(statistics.depth, 2) << "the given-back one waits, too";
+  EXPECT_GE(statistics.oldest_queued_at.value(), find(first).submitted_at);
+}
+
+TEST_F(JobStoreTest, StagesAreEstimatedFromJobsThatSucceeded) {
+  NewJob job = makeJob(trial_);
+  job.frames = 100;
+  for (const double seconds : {1.0, 3.0}) {
+    jobs_.submit(job);
+    const JobTicket ticket = claim();
+    jobs_.saveProgress(ticket, {{"scale", 0.5, 1.0}, {"ik", seconds, 1.0}}, {});
+    jobs_.succeed(ticket, {}, "pass");
   }
-  std::multiset<std::string> all;
-  for (std::size_t i = 0; i < threads.size(); ++i) {
-    threads[i].join();
-    all.insert(claimed[i].begin(), claimed[i].end());
-  }
-  EXPECT_EQ(all.size(), static_cast<std::size_t>(kJobs));
-  EXPECT_EQ(std::set<std::string>(all.begin(), all.end()).size(), static_cast<std::size_t>(kJobs));
+  const auto estimates = jobs_.calcStageEstimates();
+  ASSERT_EQ(estimates.size(), 2U);
+  EXPECT_EQ(estimates[0].stage, "scale");
+  EXPECT_EQ(estimates[1].stage, "ik");
+  EXPECT_DOUBLE_EQ(estimates[1].seconds, 2.0);
+  EXPECT_DOUBLE_EQ(estimates[1].seconds_per_frame, 0.02);
+}
+
+TEST_F(JobStoreTest, FinishedOnesAreListedForRetention) {
+  const std::string id = submit();
+  submit();
+  jobs_.succeed(claim(), {}, "pass");
+  const std::int64_t ended = find(id).finished_at.value();
+  EXPECT_TRUE(jobs_.listFinished(ended, 10).empty());
+  const auto finished = jobs_.listFinished(ended + 1, 10);
+  ASSERT_EQ(finished.size(), 1U);
+  EXPECT_EQ(finished[0].id, id);
+  EXPECT_EQ(finished[0].tenant, kTenant);
 }
 
 }  // namespace
