@@ -95,10 +95,8 @@ Identity Gate::identify(const RequestHead& head, Scope scope) const {
     return {};
   }
   const std::string& authorization = head.header("authorization");
-  std::optional<Identity> identity;
-  if (!authorization.empty()) {
-    identity = options_.authenticate(authorization);
-  }
+  // Asked without a header too: a service without keys answers that it is the local caller.
+  const std::optional<Identity> identity = options_.authenticate(authorization);
   require(identity.has_value(),
           ErrorCode::kUnauthorized,
           authorization.empty() ? "this needs an API key: Authorization: Bearer KEY"

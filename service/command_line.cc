@@ -1,7 +1,12 @@
 #include "service/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <map>
+#include <optional>
 #include <sstream>
+
+#include "core/base/error.h"
 
 namespace gaitmill {
 
@@ -16,29 +21,137 @@ void addModels(CLI::App& command, std::string& models) {
       ->envname("GAITMILL_MODELS");
 }
 
-void addServe(CLI::App& app, ServeConfig& config) {
-  CLI::App* command = app.add_subcommand("serve", "Run the web service until SIGTERM or SIGINT");
-  command->add_option("--db", config.database, "Database file, created if absent")
-      ->envname("GAITMILL_DB")
+// What `serve` and `work` are told on the command line, before it becomes a configuration.
+struct ServeFlags {
+  std::map<std::string, std::string> values;
+  std::string file;
+  bool print = false;
+};
+
+std::string findFault(const ConfigField& field, const std::string& text) {
+  ServeConfig scratch;
+  try {
+    setConfigField(field, text, scratch);
+    return "";
+  } catch (const Error& error) {
+    return error.message();
+  }
+}
+
+std::string findDefault(const ConfigField& field) {
+  ServeConfig defaults;
+  std::ostringstream text;
+  std::visit([&](const auto member) { text << defaults.*member; }, field.member);
+  return text.str();
+}
+
+void addConfiguration(CLI::App& command, ServeFlags& flags) {
+  for (const ConfigField& field : configFields()) {
+    command
+        .add_option_function<std::string>(
+            field.flag(),
+            [&flags, name = field.name](const std::string& text) { flags.values[name] = text; },
+            field.help)
+        ->check([&field](const std::string& text) { return findFault(field, text); })
+        ->type_name(field.unit.empty() ? "" : "[" + field.unit + "]")
+        ->default_str(findDefault(field));
+  }
+  command.add_option("--config", flags.file, "File with a JSON object of these values")
+      ->envname("GAITMILL_CONFIG")
+      ->check(CLI::ExistingFile);
+  command.footer(
+      std::string("Every flag has a variable, GAITMILL_DB for --db, and a member in the ") +
+      "file, \"db\";\na flag wins over a variable, and that over the file.\n" + kFooter);
+}
+
+void addServe(CLI::App& app, ServeFlags& flags) {
+  CLI::App* serve = app.add_subcommand("serve", "Run the web service until SIGTERM or SIGINT");
+  addConfiguration(*serve, flags);
+  serve->add_flag(
+      "--print-config", flags.print, "Print the configuration in force as JSON and end");
+  CLI::App* work = app.add_subcommand(
+      "work", "Run jobs of a database without the web service, beside one or alone");
+  addConfiguration(*work, flags);
+}
+
+std::optional<std::string> findVariable(const std::string& name) {
+  const char* value = std::getenv(name.c_str());
+  return value == nullptr ? std::nullopt : std::optional<std::string>(value);
+}
+
+ServeOptions makeServeOptions(const std::string& command, const ServeFlags& flags) {
+  ServeOptions options;
+  options.action = command == "work" ? ServeOptions::Action::kWork
+                   : flags.print     ? ServeOptions::Action::kPrintConfig
+                                     : ServeOptions::Action::kServe;
+  options.configuration = loadConfiguration(flags.values, flags.file, findVariable);
+  return options;
+}
+
+void addDatabase(CLI::App& command, std::string& path) {
+  command.add_option("--db", path, "Database file")->envname("GAITMILL_DB")->capture_default_str();
+  command.footer(kFooter);
+}
+
+void addBackup(CLI::App& app, BackupOptions& backup, RestoreOptions& restore) {
+  CLI::App* save = app.add_subcommand("backup", "Copy the database, in use or not");
+  save->add_option("file", backup.file, "File for the copy; one that is there is replaced")
+      ->required();
+  addDatabase(*save, backup.database);
+  CLI::App* load = app.add_subcommand("restore", "Put a backup in the place of the database");
+  load->add_option("file", restore.file, "The backup")->required()->check(CLI::ExistingFile);
+  load->add_flag_callback(
+      "--overwrite",
+      [&restore] { restore.overwrite = RestoreOptions::Overwrite::kYes; },
+      "Replace a database that is there");
+  addDatabase(*load, restore.database);
+}
+
+struct KeyFlags {
+  std::string database = "gaitmill.db";
+  CreateKeyOptions create;
+  ListKeysOptions list;
+  RevokeKeyOptions revoke;
+};
+
+void addKeys(CLI::App& app, KeyFlags& keys) {
+  CLI::App* command = app.add_subcommand("keys", "Make, list and revoke API keys");
+  command->require_subcommand(1);
+  command->fallthrough();
+  addDatabase(*command, keys.database);
+  CLI::App* create = command->add_subcommand("create", "Make a key and print it, once");
+  create->add_option("--tenant", keys.create.tenant, "Whose trials and jobs it sees")
       ->capture_default_str();
-  command->add_option("--host", config.host, "Address to listen on")
-      ->envname("GAITMILL_HOST")
+  create->add_option("--name", keys.create.name, "For people: \"lab computer\"")->required();
+  create->add_option("--scopes", keys.create.scopes, "read, write, admin")
+      ->delimiter(',')
       ->capture_default_str();
-  command->add_option("--port", config.port, "Port to listen on; 0 takes a free one and prints it")
-      ->envname("GAITMILL_PORT")
-      ->check(CLI::Range(0, 65535))
-      ->capture_default_str();
-  command->add_option("--workers", config.workers, "Jobs at a time; 0 = one per hardware thread")
-      ->envname("GAITMILL_WORKERS")
-      ->check(CLI::Range(0, 256))
-      ->capture_default_str();
-  command->add_option("--log-level", config.log_level, "What the log on standard error holds")
-      ->envname("GAITMILL_LOG_LEVEL")
-      ->check(CLI::IsMember({"debug", "info", "warn", "error", "off"}))
-      ->capture_default_str();
-  addModels(*command, config.models);
-  command->footer(std::string("Every flag has a variable: GAITMILL_DB for --db, and so on.\n") +
-                  kFooter);
+  CLI::App* list = command->add_subcommand("list", "All keys, without their secrets");
+  list->add_option("--tenant", keys.list.tenant, "Only of this one");
+  CLI::App* revoke = command->add_subcommand("revoke", "End a key");
+  revoke->add_option("id", keys.revoke.key_id, "key_...")->required();
+}
+
+KeysOptions makeKeysOptions(const CLI::App& app, const KeyFlags& keys) {
+  const std::string action = app.get_subcommand("keys")->get_subcommands().front()->get_name();
+  if (action == "create") {
+    return {keys.database, keys.create};
+  }
+  if (action == "list") {
+    return {keys.database, keys.list};
+  }
+  return {keys.database, keys.revoke};
+}
+
+// How the service starts this program as its own child; not for people, so not in the help.
+void addChildren(CLI::App& app, ChildOptions& child) {
+  for (const char* name : {"solve", "inspect"}) {
+    CLI::App* command = app.add_subcommand(name)->group("");
+    command->add_option("--models", child.models)->required();
+    command->add_option("--parent", child.parent)->required();
+    command->add_option("--memory-mb", child.limits.memory_mb)->required();
+    command->add_option("--nice", child.limits.nice)->required();
+  }
 }
 
 void addRunFiles(CLI::App& command, RunOptions& options) {
@@ -102,20 +215,54 @@ PrintAndExit explain(const CLI::App& app, const CLI::Error& error) {
   return {out.str() + complaint.str(), is_help ? kExitSuccess : kExitUsage};
 }
 
-}  // namespace
-
-Command parseCommandLine(const std::vector<std::string>& arguments) {
-  ServeConfig serve;
+// The options of every command, as far as they were given.
+struct Parsed {
+  ServeFlags serve;
   RunOptions run;
   ModelOptions model;
   SampleOptionsOnDisk sample;
+  BackupOptions backup;
+  RestoreOptions restore;
+  KeyFlags keys;
+  ChildOptions child;
+};
+
+Command choose(const CLI::App& app, Parsed& parsed) {
+  const std::string chosen = app.get_subcommands().front()->get_name();
+  if (chosen == "serve" || chosen == "work") {
+    return makeServeOptions(chosen, parsed.serve);
+  }
+  if (chosen == "solve" || chosen == "inspect") {
+    parsed.child.task =
+        chosen == "solve" ? ChildOptions::Task::kSolve : ChildOptions::Task::kInspect;
+    return parsed.child;
+  }
+  if (chosen == "keys") {
+    return makeKeysOptions(app, parsed.keys);
+  }
+  const std::map<std::string, Command> others = {{"run", parsed.run},
+                                                 {"model", parsed.model},
+                                                 {"sample", parsed.sample},
+                                                 {"backup", parsed.backup},
+                                                 {"restore", parsed.restore},
+                                                 {"version", VersionOptions{}}};
+  return others.at(chosen);
+}
+
+}  // namespace
+
+Command parseCommandLine(const std::vector<std::string>& arguments) {
+  Parsed parsed;
   CLI::App app("Gait trials in, joint moments and muscle activations out.", "gaitmill");
   app.require_subcommand(1);
   app.footer(kFooter);
-  addServe(app, serve);
-  addRun(app, run);
-  addModel(app, model);
-  addSample(app, sample);
+  addServe(app, parsed.serve);
+  addRun(app, parsed.run);
+  addModel(app, parsed.model);
+  addSample(app, parsed.sample);
+  addBackup(app, parsed.backup, parsed.restore);
+  addKeys(app, parsed.keys);
+  addChildren(app, parsed.child);
   app.add_subcommand("version", "Print the version")->footer(kFooter);
   try {
     // CLI11 takes the arguments in reverse.
@@ -123,17 +270,7 @@ Command parseCommandLine(const std::vector<std::string>& arguments) {
   } catch (const CLI::Error& error) {
     return explain(app, error);
   }
-  const std::string chosen = app.get_subcommands().front()->get_name();
-  if (chosen == "serve") {
-    return serve;
-  }
-  if (chosen == "run") {
-    return run;
-  }
-  if (chosen == "model") {
-    return model;
-  }
-  return chosen == "sample" ? Command(sample) : Command(VersionOptions{});
+  return choose(app, parsed);
 }
 
 }  // namespace gaitmill

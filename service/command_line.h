@@ -4,8 +4,11 @@
 #include <variant>
 #include <vector>
 
+#include "service/backup_command.h"
 #include "service/config.h"
+#include "service/keys_command.h"
 #include "service/model_command.h"
+#include "service/solve_command.h"
 
 namespace gaitmill {
 
@@ -41,6 +44,13 @@ struct SampleOptionsOnDisk {
   std::string models;
 };
 
+/// `gaitmill serve`, or `gaitmill work`: jobs of the same database without requests.
+struct ServeOptions {
+  enum class Action { kServe, kWork, kPrintConfig };
+  Action action = Action::kServe;
+  Configuration configuration;
+};
+
 struct VersionOptions {};
 
 /// Nothing to run: help was asked for, or the command line is wrong.
@@ -49,10 +59,14 @@ struct PrintAndExit {
   int exit_code = 0;
 };
 
-using Command = std::variant<ServeConfig,
+using Command = std::variant<ServeOptions,
                              RunOptions,
                              ModelOptions,
                              SampleOptionsOnDisk,
+                             BackupOptions,
+                             RestoreOptions,
+                             KeysOptions,
+                             ChildOptions,
                              VersionOptions,
                              PrintAndExit>;
 
@@ -60,12 +74,13 @@ using Command = std::variant<ServeConfig,
 enum ExitCode : int {
   kExitSuccess = 0,
   kExitFailed = 1,    ///< an input is wrong, or a job failed
-  kExitUsage = 2,     ///< the command line is wrong
+  kExitUsage = 2,     ///< the command line or the configuration is wrong
   kExitInternal = 3,  ///< a fault of gaitmill itself, or of the machine
 };
 
-/// Reads the command line without the program's name, then GAITMILL_… variables for flags of
-/// `serve` that are not given. Never exits.
+/// Reads the command line without the program's name; for `serve` and `work` also GAITMILL_…
+/// variables and the configuration file. Never exits.
+/// @throws Error kConfig, kFileNotFound for those two
 Command parseCommandLine(const std::vector<std::string>& arguments);
 
 }  // namespace gaitmill

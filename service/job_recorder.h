@@ -10,26 +10,31 @@
 
 namespace gaitmill {
 
-/// Keeps the stages, timings and warnings of one running job and writes them to its row: at once
-/// when a stage begins, otherwise at most every 250 ms, because solvers report after every step.
-/// For the thread that runs the job.
+/// Keeps the stages, timings and warnings of one running job and says when its row is due to be
+/// written: at once when a stage begins, otherwise at most every 250 ms, because solvers report
+/// after every step. For the thread that runs the job.
 class JobRecorder {
  public:
-  JobRecorder(JobStore& store, JobTicket ticket);
+  /// @param finished  stages of earlier attempts
+  explicit JobRecorder(std::vector<api::StageTiming> finished);
 
-  /// @returns false if the ticket is void: the job is somebody else's now
+  /// @returns whether the row is due
   bool recordProgress(Stage stage, double fraction);
+  void recordStageEnd(Stage stage);
+  /// One that the job has said already is not repeated.
   void recordWarning(const std::string& message);
-  /// Writes what has not been written, and warnings of the result that no event announced.
-  bool finish(const std::vector<std::string>& all_warnings);
+
+  const std::vector<api::StageTiming>& stages() const { return stages_; }
+  /// Warnings that no write has taken along yet.
+  std::vector<std::string> newWarnings() const;
+  /// The row has been written with what stages() and newWarnings() said.
+  void markWritten();
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  bool write();
+  bool enter(Stage stage);
 
-  JobStore& store_;
-  JobTicket ticket_;
   std::vector<api::StageTiming> stages_;
   std::vector<std::string> warnings_;
   std::size_t written_warnings_ = 0;

@@ -1,12 +1,11 @@
 #include "service/key_cache.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <utility>
 
 #include "core/base/error.h"
 #include "service/api_key.h"
+#include "service/observe/log.h"
 #include "service/storage/sha256.h"
 
 namespace gaitmill {
@@ -36,7 +35,7 @@ std::optional<api::Identity> KeyCache::authenticate(const std::string& authoriza
     const std::optional<PresentedKey> presented = parseAuthorization(authorization_header);
     return presented ? identify(presented->id, presented->secret) : std::nullopt;
   } catch (const Error& error) {
-    spdlog::error("an API key cannot be looked up: {}", error.what());
+    logEvent(Severity::kError, "keys.unreadable", {{"message", error.what()}});
     return std::nullopt;
   }
 }
@@ -60,7 +59,7 @@ void KeyCache::refresh() {
     }
     expired_ = false;
   } catch (const Error& error) {
-    spdlog::error("the API keys cannot be read: {}", error.what());
+    logEvent(Severity::kError, "keys.unreadable", {{"message", error.what()}});
   }
 }
 

@@ -5,9 +5,9 @@
 
 #include "core/base/error.h"
 #include "service/command_line.h"
-#include "service/observe/log.h"
 #include "service/model_command.h"
 #include "service/models_folder.h"
+#include "service/observe/log.h"
 #include "service/product_pipeline.h"
 #include "service/run_command.h"
 #include "service/sample_command.h"
@@ -17,10 +17,36 @@
 namespace gaitmill {
 namespace {
 
-int execute(ServeConfig config) {
-  setUpLog(config.log_level);
+int execute(ServeOptions options) {
+  if (options.action == ServeOptions::Action::kPrintConfig) {
+    std::cout << printConfiguration(options.configuration) << '\n';
+    return kExitSuccess;
+  }
+  ServeConfig config = options.configuration.values;
+  setUpLog(config.log_level, config.log_format);
   config.models = findModelsFolder(config.models);
-  return runService(config, makeProductPipeline(config.models));
+  const PipelineFunctions functions = makeProductPipeline(config.models);
+  return options.action == ServeOptions::Action::kWork ? runWork(config, functions)
+                                                       : runService(config, functions);
+}
+
+int execute(const ChildOptions& options) {
+  return runChild(options, makeProductPipeline(options.models));
+}
+
+int execute(const BackupOptions& options) {
+  backUp(options, std::cout);
+  return kExitSuccess;
+}
+
+int execute(const RestoreOptions& options) {
+  restore(options, std::cout);
+  return kExitSuccess;
+}
+
+int execute(const KeysOptions& options) {
+  manageKeys(options, std::cout);
+  return kExitSuccess;
 }
 
 int execute(RunOptions options) {
@@ -55,6 +81,7 @@ int execute(const PrintAndExit& message) {
 int findExitCode(const Error& error) {
   switch (error.code()) {
     case ErrorCode::kUsage:
+    case ErrorCode::kConfig:
       return kExitUsage;
     case ErrorCode::kInternal:
     case ErrorCode::kStorage:

@@ -1,10 +1,9 @@
 #include "service/retention.h"
 
-#include <spdlog/spdlog.h>
-
 #include <string>
 
 #include "core/base/error.h"
+#include "service/observe/log.h"
 #include "service/storage/clock.h"
 
 namespace gaitmill {
@@ -21,7 +20,8 @@ bool tryToRemove(const OwnedId& owned, const Remove& remove) {
     remove();
     return true;
   } catch (const Error& error) {
-    spdlog::warn("retention: {} stays: {}", owned.id, error.what());
+    logEvent(
+        Severity::kWarn, "retention.stays", {{"id", owned.id}, {"message", error.what()}});
     return false;
   }
 }
@@ -104,13 +104,14 @@ void Retention::run() {
     lock.unlock();
     try {
       const Removed removed = removeOld(nowMilliseconds());
-      spdlog::info("retention: {} jobs, {} studies, {} trials and {} kept answers removed",
-                   removed.jobs,
-                   removed.studies,
-                   removed.trials,
-                   removed.answers);
+      logEvent(Severity::kInfo,
+               "retention.removed",
+               {{"jobs", removed.jobs},
+                {"studies", removed.studies},
+                {"trials", removed.trials},
+                {"kept_answers", removed.answers}});
     } catch (const Error& error) {
-      spdlog::error("retention: {}", error.what());
+      logEvent(Severity::kError, "retention.fails", {{"message", error.what()}});
     }
     lock.lock();
     stopped_.wait_for(lock, kInterval, [this] { return stopping_; });

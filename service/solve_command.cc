@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "service/job_input.h"
 #include "service/process/child_channel.h"
 #include "service/process/messages.h"
 #include "service/process/solver_process.h"
@@ -62,23 +63,14 @@ Assignment receiveAssignment(ChildChannel& channel) {
   }
 }
 
-TrialInput makeTrialInput(Assignment& assignment) {
-  const auto take = [&assignment](const std::string& part) -> std::optional<InputFile> {
-    const auto found = assignment.parts.find(part);
-    return found == assignment.parts.end() ? std::nullopt : std::optional(std::move(found->second));
-  };
-  TrialInput input;
-  input.static_markers = take("static");
-  input.static_markers_2 = take("static2");
-  input.markers = take("markers");
-  input.ground_reaction = take("grf");
-  input.emg = take("emg");
-  input.model = take("model");
-  input.coordinates = take("coordinates");
-  input.marker_set = take("marker_set");
+TrialInput takeTrialInput(Assignment& assignment) {
+  JobInput input;
   input.mass = assignment.mass;
   input.height = assignment.height;
-  return input;
+  for (auto& [part, file] : assignment.parts) {
+    input.parts[part] = {file.name, api::makeByteSource(std::move(file.bytes))};
+  }
+  return makeTrialInput(input);
 }
 
 // Tells of results, each only when its bytes are new.
@@ -148,7 +140,7 @@ PipelineResult runFromCheckpoints(const TrialInput& input,
 
 void solve(ChildChannel& channel, Assignment assignment, const PipelineRunner& run) {
   ResultTeller results(channel);
-  const TrialInput input = makeTrialInput(assignment);
+  const TrialInput input = takeTrialInput(assignment);
   const PipelineResult result =
       runFromCheckpoints(input, assignment, makeEvents(channel, results), run);
   results.tellAll(result.files, result.tables, result.cycle_tables);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "service/storage/catalog_store.h"
 #include "service/storage/database.h"
@@ -14,9 +15,10 @@ namespace gaitmill {
 
 /// Everything that one process keeps in a database.
 struct Stores {
-  /// @param owner  of the process, as JobStore::claimNext takes it
-  Stores(Database& opened, const std::string& owner)
-      : database(opened),
+  /// @param owner_name  of the process, as JobStore::claimNext takes it
+  Stores(Database& opened, std::string owner_name)
+      : owner(std::move(owner_name)),
+        database(opened),
         trials(opened),
         jobs(opened),
         studies(opened, jobs),
@@ -27,6 +29,7 @@ struct Stores {
   Stores(const Stores&) = delete;
   Stores& operator=(const Stores&) = delete;
 
+  std::string owner;
   Database& database;
   TrialStore trials;
   JobStore jobs;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -9,21 +8,28 @@
 #include <mutex>
 #include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
-#include "core/base/error.h"
-#include "service/pipeline_functions.h"
-#include "service/storage/job_store.h"
-#include "service/storage/trial_store.h"
+#include "service/job_run.h"
 
 namespace gaitmill {
 
-/// Threads that claim queued jobs and run the pipeline on them, each with everything of its own.
-/// Nothing that happens in a job ends its thread.
+struct WorkersOptions {
+  int count = 1;
+  /// How often a free worker looks for jobs that other processes have submitted or left behind.
+  std::chrono::milliseconds look_around{500};
+  JobRunOptions runs;
+};
+
+/// Threads that claim jobs and run each in a child process. Nothing that happens in a job ends its
+/// thread.
 class Workers {
  public:
-  Workers(TrialStore& trials, JobStore& jobs, PipelineRunner run, int count);
+  /// @param stores, shipped, metrics  outlive this; metrics has declareJobMetrics()
+  Workers(Stores& stores,
+          const ShippedCatalog& shipped,
+          Metrics& metrics,
+          WorkersOptions options);
   ~Workers();
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
@@ -31,38 +37,34 @@ class Workers {
   void start();
   /// A job has been queued.
   void wake();
-  /// Stops this job at its solver's next step, if it runs here.
+  /// Kills the solver of this job at once, if it runs here.
   void cancel(const std::string& job_id);
-  /// No new work; running jobs stop at their next step and go back to the queue.
-  /// @returns false if a solver did not stop within `limit`: its job is back in the queue all the
-  ///          same, but its thread still runs and the process must end without waiting for it
+  /// No new work from now on. Returns at once.
+  void beginStop();
+  /// Running jobs may end by themselves within `limit`; then their solvers are killed and the jobs
+  /// given back, without blame.
+  /// @returns false if even that could not be stored in time: the leases then lapse by themselves,
+  ///          and the process must end without waiting for its threads
   bool stop(std::chrono::milliseconds limit);
 
  private:
-  struct RunningJob {
-    explicit RunningJob(JobTicket job_ticket) : ticket(std::move(job_ticket)) {}
-    JobTicket ticket;
-    std::atomic<bool> cancelled{false};
-  };
-
   void work();
   bool claimAndRun();
-  void runJob(const ClaimedJob& job);
-  PipelineResult runPipelineOf(const ClaimedJob& job, const RunningJob& running);
-  void settle(const RunningJob& running, const Error& error);
-  std::shared_ptr<RunningJob> enlist(const JobTicket& ticket);
-  void dismiss(const JobTicket& ticket);
+  std::shared_ptr<JobSignals> enlist(const std::string& job_id);
+  void dismiss(const std::string& job_id, const std::shared_ptr<JobSignals>& signals);
+  void killAll();
 
-  TrialStore& trials_;
-  JobStore& jobs_;
-  PipelineRunner run_;
-  int count_;
-  std::atomic<bool> stopping_{false};
+  Stores& stores_;
+  const ShippedCatalog& shipped_;
+  Metrics& metrics_;
+  WorkersOptions options_;
   std::mutex guard_;
   std::condition_variable changed_;
+  bool stopping_ = false;  ///< no new work
+  bool killing_ = false;   ///< what runs is to be given back
   std::uint64_t submissions_ = 0;  ///< grows with every wake(), so that none is missed
   int active_ = 0;                 ///< threads that have not ended
-  std::map<std::string, std::shared_ptr<RunningJob>> running_;
+  std::map<std::string, std::shared_ptr<JobSignals>> running_;
   std::vector<std::thread> threads_;
 };
 
