@@ -45,5 +45,30 @@ TEST(RenderJob, NamesTheStageOnlyWhileRunning) {
   EXPECT_EQ(nlohmann::json::parse(renderJob(job))["error"]["code"], "ik.x");
 }
 
+TEST(RenderJob, CountsTheQueueFromOne) {
+  JobView job;
+  EXPECT_EQ(nlohmann::json::parse(renderJob(job))["queue_position"], nullptr);
+  job.jobs_ahead = 0;
+  EXPECT_EQ(nlohmann::json::parse(renderJob(job))["queue_position"], 1);
+}
+
+TEST(ParseJobRequest, RefusesWhatIsNotAJob) {
+  for (const char* text : {"{}",
+                           R"({"trial": 3})",
+                           R"({"trial": ""})",
+                           R"({"trial": "t", "settings": 3})",
+                           R"({"trial": "t", "settings": []})",
+                           R"({"trial": "t", "settings": ""})",
+                           R"({"trial": "t", "label": 3})",
+                           R"({"trial": "t", "modle": "m"})"}) {
+    try {
+      parseJobRequest(text);
+      FAIL() << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kRequestField) << text;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace gaitmill::api

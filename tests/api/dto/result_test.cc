@@ -18,8 +18,13 @@ TimeSeries makeTable() {
   return table;
 }
 
+ResultTable makeResult(const TimeSeries& table) {
+  return {table, "so", "ab", R"({"so":{}})", true};
+}
+
 TEST(RenderTableJson, KeepsEveryDigitAndWritesNullForMissing) {
-  const auto json = nlohmann::json::parse(renderTableJson(makeTable(), TableAxis::kTime));
+  const auto json =
+      nlohmann::json::parse(renderTableJson(makeResult(makeTable()), TableAxis::kTime));
   EXPECT_EQ(json["name"], "forces");
   EXPECT_EQ(json["axis"]["name"], "time");
   EXPECT_EQ(json["axis"]["unit"], "s");
@@ -27,6 +32,22 @@ TEST(RenderTableJson, KeepsEveryDigitAndWritesNullForMissing) {
   EXPECT_EQ(json["columns"][0]["values"], nlohmann::json({1.0 / 3.0, nullptr}));
   EXPECT_EQ(json["columns"][1]["unit"], "1");
   EXPECT_EQ(json["columns"][1]["values"], nlohmann::json({-1e-300, nullptr}));
+}
+
+TEST(RenderTableJson, TellsTheSideByTheName) {
+  const TimeSeries table = makeTimeSeries("t",
+                                          {"soleus_r",
+                                           "hip_flexion_l_moment",
+                                           "hip_r_on_femur_r_in_femur_r_fx",
+                                           "pelvis_tilt",
+                                           "lumbar",
+                                           "r"},
+                                          {});
+  const auto json = nlohmann::json::parse(renderTableJson(makeResult(table), TableAxis::kTime));
+  const nlohmann::json sides = {"right", "left", "right", nullptr, nullptr, "right"};
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    EXPECT_EQ(json["columns"][i]["side"], sides[i]) << json["columns"][i]["name"];
+  }
 }
 
 TEST(RenderTableCsv, QuotesLabelsAndLeavesMissingCellsEmpty) {
@@ -38,9 +59,11 @@ TEST(RenderTableCsv, QuotesLabelsAndLeavesMissingCellsEmpty) {
 TEST(RenderTable, TakesTablesWithoutRowsAndUnits) {
   const TimeSeries empty = makeTimeSeries("none", {"a"}, {});
   EXPECT_EQ(renderTableCsv(empty, TableAxis::kTime), "time [s],a [1]\n");
-  const auto json = nlohmann::json::parse(renderTableJson(empty, TableAxis::kTime));
+  const auto json = nlohmann::json::parse(renderTableJson(makeResult(empty), TableAxis::kTime));
   EXPECT_TRUE(json["columns"][0]["values"].empty());
 }
+
+const Formats kAll = {ResultFormat::kJson, ResultFormat::kCsv, ResultFormat::kSto};
 
 struct AcceptRow {
   const char* format;
@@ -49,7 +72,7 @@ struct AcceptRow {
 };
 class Negotiation : public ::testing::TestWithParam<AcceptRow> {};
 TEST_P(Negotiation, FindsTheFormat) {
-  EXPECT_EQ(findResultFormat(GetParam().format, GetParam().accept), GetParam().expected);
+  EXPECT_EQ(findResultFormat(GetParam().format, GetParam().accept, kAll), GetParam().expected);
 }
 INSTANTIATE_TEST_SUITE_P(
     Table,
@@ -60,14 +83,23 @@ INSTANTIATE_TEST_SUITE_P(
                       AcceptRow{"", "text/html, text/csv;q=0.9", ResultFormat::kCsv},
                       AcceptRow{"", "image/png,application/json", ResultFormat::kJson},
                       AcceptRow{"", "application/vnd.opensim.sto", ResultFormat::kSto},
+                      AcceptRow{"", "application/json;q=0.2, text/csv;q=0.9", ResultFormat::kCsv},
+                      AcceptRow{"", "text/csv; q=0, */*; q=0.1", ResultFormat::kJson},
                       AcceptRow{"csv", "application/json", ResultFormat::kCsv},
                       AcceptRow{"json", "image/png", ResultFormat::kJson}));
 
 TEST(FindResultFormat, RefusesWhatThereIsNot) {
-  for (const char* accept : {"image/png", "text/csvx", ";", ",,", "application/json2"}) {
-    EXPECT_THROW(findResultFormat("", accept), Error) << accept;
+  for (const char* accept :
+       {"image/png", "text/csvx", ";", ",,", "application/json2", "text/csv;q=0", "*/*;q=x"}) {
+    EXPECT_THROW(findResultFormat("", accept, kAll), Error) << accept;
   }
-  EXPECT_THROW(findResultFormat("CSV", ""), Error);
+  EXPECT_THROW(findResultFormat("CSV", "", kAll), Error);
+}
+
+TEST(FindResultFormat, OffersOnlyWhatThereIs) {
+  const Formats two = {ResultFormat::kJson, ResultFormat::kCsv};
+  EXPECT_THROW(findResultFormat("sto", "", two), Error);
+  EXPECT_EQ(findResultFormat("", "application/vnd.opensim.sto, text/*", two), ResultFormat::kCsv);
 }
 
 TEST(Quality, IsFlattenedToPathsThatWearTheirUnits) {

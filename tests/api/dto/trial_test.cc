@@ -1,6 +1,10 @@
 #include "api/dto/trial.h"
 
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
 
@@ -40,7 +44,17 @@ INSTANTIATE_TEST_SUITE_P(Table,
                                            R"({"mass_kg": 75, "height_m": 1.7, "marker_set": 3})",
                                            R"({"mass_kg": 75, "height_m": 1.7, "colour": "red"})"));
 
-TEST(UnderstoodFiles, SurviveStorage) {
+TEST(ParseTrialSubject, NamesAreShortAndOnOneLine) {
+  for (const std::string& name : {std::string(201, 'a'), std::string("two\\nlines")}) {
+    EXPECT_THROW(
+        parseTrialSubject(R"({"mass_kg": 75, "height_m": 1.7, "subject": ")" + name + "\"}"),
+        Error);
+    EXPECT_THROW(parseTrialSubject(R"({"mass_kg": 75, "height_m": 1.7, "label": ")" + name + "\"}"),
+                 Error);
+  }
+}
+
+TEST(Understanding, SurvivesStorage) {
   UnderstoodFile markers;
   markers.part = "markers";
   markers.name = "walk.trc";
@@ -51,15 +65,39 @@ TEST(UnderstoodFiles, SurviveStorage) {
   markers.rate = 100.0;
   markers.start = 0.1;
   markers.end = 3.09;
+  markers.units = "mm";
   markers.labels_kind = "markers";
   markers.labels = {"RASI"};
-  UnderstoodFile model;
-  model.part = "model";
-  model.format = "osim";
-  const std::string json = encodeUnderstoodFiles({markers, model});
-  EXPECT_EQ(encodeUnderstoodFiles(decodeUnderstoodFiles(json)), json);
-  EXPECT_EQ(decodeUnderstoodFiles(json)[0].size, 12345678901);
-  EXPECT_FALSE(decodeUnderstoodFiles(json)[1].frames.has_value());
+  markers.marker_sets = {{"lab_a", {"RASI"}, {"RTOE"}}};
+  UnderstoodFile forces;
+  forces.part = "grf";
+  forces.format = "table";
+  forces.labels_kind = "forces";
+  forces.contacts = {{"1", "left", 0.5, 1.1, true, false}, {"2", "", 0.0, 0.4, false, true}};
+  TrialView trial;
+  trial.files = {markers, forces};
+  trial.events = {{"foot_strike", "left", 0.5}};
+  trial.warnings = {"a cut last row"};
+  const std::string text = encodeUnderstanding(trial);
+  TrialView back;
+  decodeUnderstanding(text, back);
+  EXPECT_EQ(encodeUnderstanding(back), text);
+  EXPECT_EQ(back.files[0].size, 12345678901);
+  EXPECT_EQ(back.files[0].marker_sets[0].missing, std::vector<std::string>{"RTOE"});
+  EXPECT_FALSE(back.files[1].frames.has_value());
+  EXPECT_EQ(back.files[1].contacts[1].foot, "");
+  EXPECT_TRUE(back.files[1].contacts[1].has_toe_off);
+  EXPECT_EQ(back.events[0].time, 0.5);
+  EXPECT_EQ(back.warnings, trial.warnings);
+}
+
+TEST(RenderTrial, DryRunHasNeitherIdNorTime) {
+  TrialView trial;
+  const auto json = nlohmann::json::parse(renderTrial(trial));
+  EXPECT_EQ(json["id"], nullptr);
+  EXPECT_EQ(json["created_at"], nullptr);
+  trial.id = "tri_1";
+  EXPECT_EQ(nlohmann::json::parse(renderTrial(trial))["created_at"], "1970-01-01T00:00:00.000Z");
 }
 
 }  // namespace
