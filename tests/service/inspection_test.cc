@@ -38,7 +38,7 @@ TEST(InspectTrial, SaysWhatTheSampleTrialHolds) {
   EXPECT_EQ(view.files[1].part, "grf");
   EXPECT_EQ(view.files[1].labels.size(), 2U);
   EXPECT_NEAR(view.files[1].rate.value(), 200.0, tol(1e-6));
-  EXPECT_EQ(markers.units, "mm");
+  EXPECT_EQ(markers.units, "m");
   ASSERT_FALSE(view.files[1].contacts.empty());
   for (const api::ContactView& contact : view.files[1].contacts) {
     EXPECT_EQ(contact.foot, contact.plate == "ground_force_r" ? "right" : "left") << contact.plate;

@@ -115,8 +115,9 @@ JobTicket PortFixture::runNextJob(const std::string& last) {
 
 std::string PortFixture::addFinishedJob(const api::Identity& who,
                                         const std::string& settings_json) {
-  addJob(who, addTrial(who), settings_json);
-  return runNextJob().job_id;
+  const std::string id = addJob(who, addTrial(who), settings_json);
+  check(runNextJob().job_id == id, "another job was waiting");
+  return id;
 }
 
 api::Identity makeMember(const std::string& tenant, const std::string& key_id) {

@@ -1,10 +1,6 @@
 #include "service/zip_archive.h"
 
-#include <archive.h>
-#include <archive_entry.h>
-
 #include <filesystem>
-#include <memory>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -13,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "service/storage/sha256.h"
+#include "tests/service/zip_reader.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gaitmill {
@@ -22,25 +19,6 @@ ZipEntry makeEntry(const std::string& name, const std::string& bytes) {
   return {name, [bytes] {
             return api::makeByteSource(bytes);
           }};
-}
-
-// Names and bytes as an independent reader of zip files (with its checksums) sees them.
-std::vector<std::pair<std::string, std::string>> readZip(const std::string& zip) {
-  const std::unique_ptr<archive, int (*)(archive*)> reader(archive_read_new(), archive_read_free);
-  archive_read_support_format_zip(reader.get());
-  EXPECT_EQ(archive_read_open_memory(reader.get(), zip.data(), zip.size()), ARCHIVE_OK);
-  std::vector<std::pair<std::string, std::string>> files;
-  archive_entry* entry = nullptr;
-  while (archive_read_next_header(reader.get(), &entry) == ARCHIVE_OK) {
-    files.emplace_back(archive_entry_pathname(entry), "");
-    std::vector<char> piece(1 << 16);
-    la_ssize_t count = 0;
-    while ((count = archive_read_data(reader.get(), piece.data(), piece.size())) > 0) {
-      files.back().second.append(piece.data(), static_cast<std::size_t>(count));
-    }
-    EXPECT_EQ(count, 0) << archive_error_string(reader.get());
-  }
-  return files;
 }
 
 std::string makeBytes(std::size_t size) {
