@@ -1,6 +1,7 @@
 #include "api/gate.h"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,9 @@
 namespace gaitmill::api {
 
 namespace {
+
+constexpr std::string_view kJsonType = "application/json";
+constexpr std::string_view kMultipartType = "multipart/form-data";
 
 Where atHeader(const std::string& name) {
   Where where;
@@ -55,21 +59,33 @@ const char* describeBody(BodyKind kind) {
   return "of any type";
 }
 
+bool takesMultipart(BodyKind kind) {
+  return kind == BodyKind::kMultipart || kind == BodyKind::kMultipartOrJson;
+}
+
 bool takesType(BodyKind kind, const std::string& type) {
-  const bool is_json = type == "application/json";
-  const bool is_multipart = type == "multipart/form-data";
-  switch (kind) {
-    case BodyKind::kJson:
-      return is_json;
-    case BodyKind::kMultipart:
-      return is_multipart;
-    case BodyKind::kMultipartOrJson:
-      return is_json || is_multipart;
-    case BodyKind::kNone:
-    case BodyKind::kBytes:
-      break;
-  }
-  return true;
+  const bool takes_json = kind == BodyKind::kJson || kind == BodyKind::kMultipartOrJson;
+  return kind == BodyKind::kNone || kind == BodyKind::kBytes || (takes_json && type == kJsonType) ||
+         (takesMultipart(kind) && type == kMultipartType);
+}
+
+// How long the body is must be said once and by its number of bytes, and they must be its own:
+// chunks hide the length, an encoding hides the content.
+void checkFraming(const RequestHead& head) {
+  require(!head.has("transfer-encoding"),
+          ErrorCode::kRequestLengthRequired,
+          "send the body with Content-Length; Transfer-Encoding is not taken",
+          atHeader("Transfer-Encoding"));
+  const std::string& encoding = head.header("content-encoding");
+  require(encoding.empty() || toLower(encoding) == "identity",
+          ErrorCode::kRequestMediaType,
+          "the body must come without Content-Encoding",
+          atHeader("Content-Encoding"));
+  const std::string& expectation = head.header("expect");
+  require(expectation.empty() || toLower(expectation) == "100-continue",
+          ErrorCode::kRequestMalformed,
+          "100-continue is all that may be expected",
+          atHeader("Expect"));
 }
 
 }  // namespace
@@ -111,20 +127,7 @@ Identity Gate::identify(const RequestHead& head, Scope scope) const {
 
 void Gate::checkBody(const RequestHead& head, Admission& admission) const {
   const Route& route = *admission.match.route;
-  require(!head.has("transfer-encoding"),
-          ErrorCode::kRequestLengthRequired,
-          "send the body with Content-Length; Transfer-Encoding is not taken",
-          atHeader("Transfer-Encoding"));
-  const std::string& encoding = head.header("content-encoding");
-  require(encoding.empty() || toLower(encoding) == "identity",
-          ErrorCode::kRequestMediaType,
-          "the body must come without Content-Encoding",
-          atHeader("Content-Encoding"));
-  const std::string& expectation = head.header("expect");
-  require(expectation.empty() || toLower(expectation) == "100-continue",
-          ErrorCode::kRequestMalformed,
-          "100-continue is all that may be expected",
-          atHeader("Expect"));
+  checkFraming(head);
   const std::string type = findMediaType(head.header("content-type"));
   require(takesType(route.body, type),
           ErrorCode::kRequestMediaType,
@@ -134,21 +137,23 @@ void Gate::checkBody(const RequestHead& head, Admission& admission) const {
           ErrorCode::kRequestLengthRequired,
           "the body is missing or has no Content-Length",
           atHeader("Content-Length"));
-  const bool is_upload = route.body == BodyKind::kBytes || type == "multipart/form-data";
-  const std::uint64_t general = is_upload && route.body != BodyKind::kNone
-                                    ? options_.max_upload_bytes
-                                    : options_.max_json_bytes;
-  const std::uint64_t limit = route.max_bytes > 0 ? route.max_bytes : general;
+  const bool is_multipart = type == kMultipartType && takesMultipart(route.body);
+  const std::uint64_t limit = findLimit(route, is_multipart);
   admission.body_bytes = head.content_length.value_or(0);
   require(admission.body_bytes <= limit,
           ErrorCode::kRequestTooLarge,
           "the body has " + std::to_string(admission.body_bytes) + " bytes, " +
               std::to_string(limit) + " are allowed",
           atHeader("Content-Length"));
-  if (type == "multipart/form-data" && route.body != BodyKind::kBytes &&
-      route.body != BodyKind::kNone) {
+  if (is_multipart) {
     admission.boundary = findMultipartBoundary(head.header("content-type"));
   }
+}
+
+std::uint64_t Gate::findLimit(const Route& route, bool is_multipart) const {
+  const bool is_upload = is_multipart || route.body == BodyKind::kBytes;
+  const std::uint64_t general = is_upload ? options_.max_upload_bytes : options_.max_json_bytes;
+  return route.max_bytes > 0 ? route.max_bytes : general;
 }
 
 std::string Gate::listMethods(const std::string& path) const {

@@ -37,6 +37,7 @@ class Gate {
  private:
   Identity identify(const RequestHead& head, Scope scope) const;
   void checkBody(const RequestHead& head, Admission& admission) const;
+  std::uint64_t findLimit(const Route& route, bool is_multipart) const;
   std::string listMethods(const std::string& path) const;
 
   const Router& router_;

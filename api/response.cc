@@ -356,6 +356,18 @@ std::optional<ByteRange> negotiate(HttpReply& reply, const ReplyConditions& cond
   return range;
 }
 
+Response prepareContent(HttpReply reply, const ReplyConditions& conditions) {
+  std::optional<ByteRange> range;
+  if (conditions.is_read && reply.status == 200) {
+    range = negotiate(reply, conditions);
+  }
+  Response response;
+  response.status = reply.status;
+  response.head = makeHead(reply, conditions);
+  setContent(std::move(reply), range, conditions, response);
+  return response;
+}
+
 }  // namespace
 
 ReplyConditions findReplyConditions(const RequestHead& head, const std::string& request_id) {
@@ -371,22 +383,15 @@ ReplyConditions findReplyConditions(const RequestHead& head, const std::string& 
 }
 
 Response prepareResponse(HttpReply reply, const ReplyConditions& conditions) {
-  Response response;
   if (reply.park) {
-    response.park = std::move(reply.park);
-    return response;
+    Response parked;
+    parked.park.emplace(std::move(*reply.park));
+    return parked;
   }
   if (reply.events) {
     return prepareEvents(std::move(reply), conditions);
   }
-  std::optional<ByteRange> range;
-  if (conditions.is_read && reply.status == 200) {
-    range = negotiate(reply, conditions);
-  }
-  response.status = reply.status;
-  response.head = makeHead(reply, conditions);
-  setContent(std::move(reply), range, conditions, response);
-  return response;
+  return prepareContent(std::move(reply), conditions);
 }
 
 std::string formatHttpDate(std::int64_t unix_seconds) {
