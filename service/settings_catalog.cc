@@ -30,6 +30,21 @@ std::string joinNames(const std::vector<std::string>& names) {
   return list.empty() ? "none" : list;
 }
 
+/// Settings have few levels; what lies deeper is replaced whole.
+constexpr int kDeepestMerge = 8;
+
+/// Unlike a JSON merge patch, null is a value here: it empties a filter or a set of residuals.
+void mergeInto(json& base, const json& changes, int depth) {
+  for (const auto& [name, value] : changes.items()) {
+    json& mine = base[name];
+    if (mine.is_object() && value.is_object() && depth < kDeepestMerge) {
+      mergeInto(mine, value, depth + 1);
+    } else {
+      mine = value;
+    }
+  }
+}
+
 }  // namespace
 
 SettingsCatalog::SettingsCatalog(const std::string& models_folder) {
@@ -66,7 +81,7 @@ InputFile mergeSettings(const InputFile& base, const InputFile& changes) {
     return base;
   }
   json merged = parseObject(base);
-  merged.merge_patch(patch);
+  mergeInto(merged, patch, 0);
   return {base.name, merged.dump()};
 }
 

@@ -22,8 +22,8 @@ class SettingsCatalog {
   std::map<std::string, InputFile> documents_;  ///< by name
 };
 
-/// `base` with the fields of `changes` put over it, object by object (RFC 7386). Both are JSON
-/// objects. @throws Error kSettingsJson if one is not
+/// `base` with the fields of `changes` put over it, object by object; null is a value as any other.
+/// Both are JSON objects. @throws Error kSettingsJson if one is not
 InputFile mergeSettings(const InputFile& base, const InputFile& changes);
 
 /// The settings document that chooses a marker set: {"scale": {"marker_set": name}}.

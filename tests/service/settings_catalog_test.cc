@@ -37,6 +37,14 @@ TEST(MergeSettings, PutsChangesOverTheBase) {
             nlohmann::json::parse(R"({"a": {"x": 1, "y": 5}, "b": 3, "c": [1]})"));
 }
 
+// "No filter" is a setting of its own, also where the base says nothing.
+TEST(MergeSettings, KeepsNull) {
+  const InputFile merged = mergeSettings({"base", R"({"rra": {"cutoff": 6}})"},
+                                         {"changes", R"({"rra": {"cutoff": null, "x": null}})"});
+  EXPECT_EQ(nlohmann::json::parse(merged.bytes),
+            nlohmann::json::parse(R"({"rra": {"cutoff": null, "x": null}})"));
+}
+
 TEST(MergeSettings, LeavesTheBaseAsItIsIfNothingChanges) {
   const std::string text = "{ \"a\" : 1 }";
   EXPECT_EQ(mergeSettings({"base", text}, {"none", "{}"}).bytes, text);
