@@ -19,6 +19,9 @@ constexpr milliseconds kLingerAtStop{100};
 // Between two questions to one long poll or event stream: a job may report hundreds of times per
 // second, a person reads some.
 constexpr milliseconds kAskGap{20};
+// Longer with many who wait, so that all of them together ask at most 2 000 times per second
+// however often their jobs report.
+constexpr std::chrono::microseconds kAskGapPerWaiter{500};
 constexpr std::string_view kPulse = ": still here\n\n";
 
 }  // namespace
@@ -75,8 +78,11 @@ const Topic& Connection::topic() const {
 }
 
 Clock::time_point Connection::askDue() const {
-  return is_asking_ ? Clock::time_point::max()
-                    : asked_ + (is_changed_ ? kAskGap : context_.options.ask_again);
+  const std::size_t waiters = context_.parked + context_.event_streams;
+  const auto gap = kAskGap + kAskGapPerWaiter * waiters;
+  const auto wait = is_changed_ ? std::min<Clock::duration>(gap, context_.options.ask_again)
+                                : Clock::duration(context_.options.ask_again);
+  return is_asking_ ? Clock::time_point::max() : asked_ + wait;
 }
 
 bool Connection::isAskDue(Clock::time_point now) const {
