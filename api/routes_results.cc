@@ -20,11 +20,14 @@ void requireResultName(const std::string& name) {
   if (name == "quality" || std::find(tables.begin(), tables.end(), name) != tables.end()) {
     return;
   }
-  std::string list;
+  std::string list = "quality";
   for (const std::string& table : tables) {
-    list += table + ", ";
+    list += ", " + table;
   }
-  throw Error(ErrorCode::kResultNotFound, "results are " + list + "and quality", {"", 0, 0, name});
+  const std::string nearest = findNearestName(name, tables);
+  throw Error(ErrorCode::kResultNotFound,
+              "results are " + list + (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"),
+              {"", 0, 0, name});
 }
 
 // Equal for equal inputs, model, settings and code; other representations have other tags.

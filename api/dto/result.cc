@@ -317,7 +317,7 @@ std::string renderFile(const FileView& file) {
 std::string renderResult(const ResultView& result) {
   const json axes = result.has_cycle ? json{"time", "cycle"} : json::array({"time"});
   return dumpJson({{"name", result.name},
-                   {"stage", result.stage},
+                   {"stage", result.stage.empty() ? json(nullptr) : json(result.stage)},
                    {"axes", result.name == "quality" ? json::array() : axes},
                    {"formats", {"json", "csv", "sto"}}});
 }

@@ -94,6 +94,8 @@ TEST_F(ResultRoutes, UnknownResultsFormatsAndUnitsAreRefusedBeforeAnyoneIsAsked)
   EXPECT_EQ(codeOf("moments", {{"axis", "percent"}}), ErrorCode::kRequestField);
   EXPECT_EQ(codeOf("moments", {{"angles", "degrees"}}), ErrorCode::kRequestField);
   EXPECT_TRUE(stub_.record.calls.empty());
+  EXPECT_NE(errorOf([&] { get(job_ + "/results/momentz"); }).message().find("mean 'moments'?"),
+            std::string::npos);
 }
 
 TEST_F(ResultRoutes, ListSaysFormsOfEachResult) {
