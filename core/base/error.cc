@@ -1,13 +1,12 @@
 #include "core/base/error.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <utility>
 
 #include "core/base/progress.h"
+#include "core/base/text.h"
 
 namespace gaitmill {
 
@@ -150,9 +149,7 @@ std::string describeComputation(const Where& where) {
   };
   addNamed("stage ", where.stage);
   if (!std::isnan(where.time)) {
-    std::array<char, 32> seconds{};
-    std::snprintf(seconds.data(), seconds.size(), "%.3f s", where.time);
-    add(seconds.data());
+    add(formatFixed(where.time, 3) + " s");
   }
   addNamed("marker ", where.marker);
   addNamed("muscle ", where.muscle);
