@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <deque>
 #include <stdexcept>
 
 namespace gaitmill::load {
@@ -36,8 +37,8 @@ std::size_t findAnswerSize(const std::string& in) {
 
 class Ring {
  public:
-  Ring(int port, const std::function<std::string(std::uint64_t)>& make_request)
-      : port_(port), make_request_(make_request), epoll_(::epoll_create1(EPOLL_CLOEXEC)) {}
+  Ring(const RingOptions& options, const std::function<std::string(std::uint64_t)>& make_request)
+      : options_(options), make_request_(make_request), epoll_(::epoll_create1(EPOLL_CLOEXEC)) {}
   ~Ring() {
     for (const Client& client : clients_) {
       ::close(client.socket);
@@ -47,37 +48,57 @@ class Ring {
   Ring(const Ring&) = delete;
   Ring& operator=(const Ring&) = delete;
 
-  Figures run(int connections, double seconds) {
-    clients_.resize(static_cast<std::size_t>(connections));
+  Figures run() {
+    clients_.resize(static_cast<std::size_t>(options_.connections));
+    begin_ = Clock::now();
     for (std::size_t i = 0; i < clients_.size(); ++i) {
       open(i);
     }
-    const Clock::time_point begin = Clock::now();
-    const Clock::time_point end =
-        begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-    while (Clock::now() < end) {
+    while (secondsSinceBegin() < options_.seconds) {
+      beginFree();
       step();
     }
-    figures_.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    figures_.seconds = secondsSinceBegin();
     return std::move(figures_);
   }
 
  private:
   void open(std::size_t index) {
     Client& client = clients_[index];
-    client.socket = connectTo(port_);
+    client.socket = connectTo(options_.port);
     epoll_event event{};
     event.events = EPOLLIN;
     event.data.u64 = index;
     ::epoll_ctl(epoll_, EPOLL_CTL_ADD, client.socket, &event);
-    begin(client);
+    free_.push_back(index);
+  }
+
+  double secondsSinceBegin() const {
+    return std::chrono::duration<double>(Clock::now() - begin_).count();
+  }
+
+  // When the next request is to be sent.
+  Clock::time_point nextMoment() const {
+    if (options_.rate <= 0) {
+      return Clock::now();
+    }
+    const std::chrono::duration<double> since(static_cast<double>(number_) / options_.rate);
+    return begin_ + std::chrono::duration_cast<Clock::duration>(since);
+  }
+
+  void beginFree() {
+    while (!free_.empty() && nextMoment() <= Clock::now()) {
+      Client& client = clients_[free_.front()];
+      free_.pop_front();
+      begin(client, nextMoment());
+    }
   }
 
   // Requests are small enough for the socket's buffer.
-  void begin(Client& client) {
+  void begin(Client& client, Clock::time_point moment) {
     const std::string request = make_request_(number_++);
     client.in.clear();
-    client.begin = Clock::now();
+    client.begin = moment;
     std::size_t sent = 0;
     while (sent < request.size()) {
       const ssize_t count =
@@ -91,7 +112,7 @@ class Ring {
 
   void step() {
     std::array<epoll_event, 64> events{};
-    const int count = ::epoll_wait(epoll_, events.data(), static_cast<int>(events.size()), 100);
+    const int count = ::epoll_wait(epoll_, events.data(), static_cast<int>(events.size()), 1);
     for (int i = 0; i < count; ++i) {
       receive(static_cast<std::size_t>(events[static_cast<std::size_t>(i)].data.u64));
     }
@@ -110,7 +131,7 @@ class Ring {
     client.in.append(bytes.data(), static_cast<std::size_t>(got));
     if (findAnswerSize(client.in) > 0) {
       note(client);
-      begin(client);
+      free_.push_back(index);
     }
   }
 
@@ -126,11 +147,13 @@ class Ring {
     }
   }
 
-  int port_;
+  const RingOptions options_;
   const std::function<std::string(std::uint64_t)>& make_request_;
   int epoll_;
   std::uint64_t number_ = 0;
   std::vector<Client> clients_;
+  std::deque<std::size_t> free_;  ///< clients without a request under way
+  Clock::time_point begin_;
   Figures figures_;
 };
 
@@ -164,11 +187,9 @@ std::string Figures::describe(const std::string& name) {
   return text.data();
 }
 
-Figures runRing(int port,
-                int connections,
-                double seconds,
+Figures runRing(const RingOptions& options,
                 const std::function<std::string(std::uint64_t)>& make_request) {
-  return Ring(port, make_request).run(connections, seconds);
+  return Ring(options, make_request).run();
 }
 
 int connectTo(int port) {

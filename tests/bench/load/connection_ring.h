@@ -23,12 +23,17 @@ struct Figures {
   std::string describe(const std::string& name);
 };
 
-/// Keeps `connections` requests under way on as many connections, from one thread, until `seconds`
-/// have passed: as soon as one is answered, its connection sends the next.
+struct RingOptions {
+  int port = 0;
+  int connections = 32;
+  double seconds = 10;
+  double rate = 0;  ///< [requests/s]; 0 = the next as soon as one is answered
+};
+
+/// Keeps requests under way on several connections, from one thread. With a rate, requests have
+/// their moments, and a latency counts from there, even if no connection was free to send it.
 /// @param make_request  the bytes of the request with this number
-Figures runRing(int port,
-                int connections,
-                double seconds,
+Figures runRing(const RingOptions& options,
                 const std::function<std::string(std::uint64_t)>& make_request);
 
 /// A blocking connection to the service on this machine. @returns the socket

@@ -41,6 +41,7 @@ struct Options {
   std::string type = "application/json";
   int connections = 32;
   double seconds = 10;
+  double rate = 0;
   int idle = 2000;
   int drips = 200;
   std::string drip_path = "/v1/trials";
@@ -88,10 +89,14 @@ std::string makeHead(const Options& options, const std::string& method, std::siz
   return head;
 }
 
+RingOptions makeRing(const Options& options, int connections) {
+  return {options.port, connections, options.seconds, options.rate};
+}
+
 void measurePolls(const Options& options) {
   const std::string request = makeHead(options, "GET", 0) + "\r\n";
-  Figures figures = runRing(
-      options.port, options.connections, options.seconds, [&](std::uint64_t) { return request; });
+  Figures figures =
+      runRing(makeRing(options, options.connections), [&](std::uint64_t) { return request; });
   std::cout << figures.describe("polls of " + options.path) << "\n";
 }
 
@@ -100,11 +105,9 @@ void measureSubmissions(const Options& options) {
       options.parts.empty() ? readText(options.body) : makeMultipart(options.parts);
   const std::string head = makeHead(options, options.method, body.size());
   const std::string run = std::to_string(::getpid());
-  Figures figures =
-      runRing(options.port, options.connections, options.seconds, [&](std::uint64_t number) {
-        return head + "Idempotency-Key: load-" + run + "-" + std::to_string(number) + "\r\n\r\n" +
-               body;
-      });
+  Figures figures = runRing(makeRing(options, options.connections), [&](std::uint64_t number) {
+    return head + "Idempotency-Key: load-" + run + "-" + std::to_string(number) + "\r\n\r\n" + body;
+  });
   std::cout << figures.describe("submissions to " + options.path) << "\n";
 }
 
@@ -235,8 +238,7 @@ void measureCrowd(const Options& options) {
     }
   });
   const std::string request = makeHead(options, "GET", 0) + "\r\n";
-  Figures figures =
-      runRing(options.port, 1, options.seconds, [&](std::uint64_t) { return request; });
+  Figures figures = runRing(makeRing(options, 1), [&](std::uint64_t) { return request; });
   ended = true;
   dripping.join();
   std::cout << figures.describe(options.path + " among " + std::to_string(options.idle) +
@@ -261,6 +263,7 @@ void addCommands(CLI::App& app, Options& options) {
   app.add_option("--path", options.path, "of the request");
   app.add_option("--header", options.headers, "\"Name: value\", as often as needed");
   app.add_option("--seconds", options.seconds, "to measure");
+  app.add_option("--rate", options.rate, "of requests per second; 0 = as fast as answers come");
   app.add_option("--connections", options.connections, "at once");
   app.add_option("--method", options.method, "of a submission or upload");
   app.add_option("--body", options.body, "text, or @file");
