@@ -9,6 +9,9 @@ namespace gaitmill::api {
 
 namespace {
 
+constexpr std::int64_t kSecondsPerHour = 3600;
+constexpr std::int64_t kSecondsPerMinute = 60;
+
 bool isDigit(char letter) {
   return std::isdigit(static_cast<unsigned char>(letter)) != 0;
 }
@@ -66,7 +69,8 @@ std::optional<std::int64_t> takeDateAndTime(std::string_view& rest) {
   utc.tm_year = year - 1900;
   utc.tm_mon = month - 1;
   utc.tm_mday = day;
-  return static_cast<std::int64_t>(timegm(&utc)) + 3600 * hour + 60 * minute + second;
+  return static_cast<std::int64_t>(timegm(&utc)) + kSecondsPerHour * hour +
+         kSecondsPerMinute * minute + second;
 }
 
 // Milliseconds of ".25", which may be absent.
@@ -99,7 +103,7 @@ std::optional<std::int64_t> takeOffset(std::string_view& rest) {
   if (!has_sign || !has_minutes || hours < 0 || hours > 23 || minutes < 0 || minutes > 59) {
     return std::nullopt;
   }
-  return (is_behind ? -1 : 1) * (3600 * hours + 60 * minutes);
+  return (is_behind ? -1 : 1) * (kSecondsPerHour * hours + kSecondsPerMinute * minutes);
 }
 
 }  // namespace
