@@ -78,19 +78,20 @@ class Ring {
   }
 
   // When the next request is to be sent.
-  Clock::time_point nextMoment() const {
+  Clock::time_point findMoment(Clock::time_point now) const {
     if (options_.rate <= 0) {
-      return Clock::now();
+      return now;
     }
     const std::chrono::duration<double> since(static_cast<double>(number_) / options_.rate);
     return begin_ + std::chrono::duration_cast<Clock::duration>(since);
   }
 
   void beginFree() {
-    while (!free_.empty() && nextMoment() <= Clock::now()) {
+    const Clock::time_point now = Clock::now();
+    while (!free_.empty() && findMoment(now) <= now) {
       Client& client = clients_[free_.front()];
       free_.pop_front();
-      begin(client, nextMoment());
+      begin(client, findMoment(now));
     }
   }
 
