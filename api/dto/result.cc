@@ -1,6 +1,7 @@
 #include "api/dto/result.h"
 
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -153,6 +154,24 @@ const char* axisUnit(TableAxis axis) {
   return axis == TableAxis::kTime ? "s" : "percent";
 }
 
+// "N.m" as names wear it: "_nm"; empty for what has no unit.
+std::string makeUnitSuffix(const json& figure) {
+  std::string suffix;
+  for (const char letter : figure.value("unit", "")) {
+    if (std::isalnum(static_cast<unsigned char>(letter)) != 0) {
+      suffix += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    }
+    suffix += letter == '%' ? "percent" : "";
+  }
+  return suffix.empty() ? "" : "_" + suffix;
+}
+
+bool isFigure(const json& value) {
+  return value.is_object() && value.contains("figure") && value["figure"].is_string();
+}
+
+// Entries of a list that say which figure they are go by its name, because another job may have
+// another list.
 void collectNumbers(const json& value, const std::string& path, Quantities& found) {
   if (value.is_number()) {
     found.emplace_back(path, value.get<double>());
@@ -161,9 +180,11 @@ void collectNumbers(const json& value, const std::string& path, Quantities& foun
   if (!value.is_structured()) {
     return;
   }
+  const std::string suffix = isFigure(value) ? makeUnitSuffix(value) : "";
   for (const auto& [key, child] : value.items()) {
+    const std::string name = isFigure(child) ? child["figure"].get<std::string>() : key;
     std::string child_path = path;
-    child_path.append(path.empty() ? "" : ".").append(key);
+    child_path.append(path.empty() ? "" : ".").append(name).append(suffix);
     collectNumbers(child, child_path, found);
   }
 }

@@ -102,6 +102,16 @@ TEST(FindResultFormat, OffersOnlyWhatThereIs) {
   EXPECT_EQ(findResultFormat("", "application/vnd.opensim.sto, text/*", two), ResultFormat::kCsv);
 }
 
+// Two jobs may have different lists of checks: the third of one is not the third of the other.
+TEST(Quality, ChecksGoByTheirFigureAndUnit) {
+  const std::string json = R"({"checks": [
+      {"figure": "residual_moment_peak", "unit": "N.m", "value": 4.5, "limit": 75},
+      {"figure": "reserves", "unit": "%", "value": 2}]})";
+  EXPECT_EQ(renderQualityCsv(json),
+            "quantity,value\nchecks.residual_moment_peak.limit_nm,75\n"
+            "checks.residual_moment_peak.value_nm,4.5\nchecks.reserves.value_percent,2\n");
+}
+
 TEST(Quality, IsFlattenedToPathsThatWearTheirUnits) {
   const std::string json = R"({"a": {"rmse_nm": 0.5, "name": "x", "ok": true}, "b_deg": [1, 2]})";
   EXPECT_EQ(renderQualityCsv(json), "quantity,value\na.rmse_nm,0.5\nb_deg.0,1\nb_deg.1,2\n");
