@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "core/base/error.h"
@@ -135,21 +136,29 @@ class SpoolSource : public ByteSource {
   Lease lease_;
 };
 
+// Opens its file with the first bytes: that may wait for the disk's journal, and append() is called
+// where waiting is allowed.
 class SpoolBuffer : public BodyBuffer {
  public:
-  SpoolBuffer(const std::string& folder, Lease lease) : file_(folder), lease_(std::move(lease)) {}
+  SpoolBuffer(std::string folder, Lease lease)
+      : folder_(std::move(folder)), lease_(std::move(lease)) {}
 
   bool isOnDisk() const override { return true; }
   void append(std::string_view bytes) override {
-    file_.append(bytes);
+    if (!file_) {
+      file_.emplace(folder_);
+    }
+    file_->append(bytes);
     size_ += bytes.size();
   }
   std::shared_ptr<const ByteSource> finish() override {
-    return std::make_shared<SpoolSource>(std::move(file_), size_, std::move(lease_));
+    check(file_.has_value(), "a spooled body has no bytes");
+    return std::make_shared<SpoolSource>(std::move(*file_), size_, std::move(lease_));
   }
 
  private:
-  SpoolFile file_;
+  std::string folder_;
+  std::optional<SpoolFile> file_;
   std::uint64_t size_ = 0;
   Lease lease_;
 };

@@ -46,7 +46,7 @@ class Budget {
 class BodyBuffer {
  public:
   virtual ~BodyBuffer() = default;
-  /// Whether append() may wait for a disk.
+  /// Whether append() and the end of the buffer may wait for a disk.
   virtual bool isOnDisk() const = 0;
   /// @throws Error kStorageFull, kStorage
   virtual void append(std::string_view bytes) = 0;

@@ -127,6 +127,7 @@ class Connection {
   void askEvents();
   void takeEvents(Answer answer);
   void endReply();
+  void discardBody();
   void record();
   void close();
 

@@ -66,7 +66,7 @@ void Connection::refuse(const Error& error) {
 // Refuses what cannot be read to its end, so that nothing behind it can be a request.
 void Connection::breakOff(const Error& error) {
   close_after_ = true;
-  body_ = nullptr;
+  discardBody();
   releaseMemory(input_);
   refuse(error);
 }
@@ -280,7 +280,17 @@ void Connection::close() {
       record();
       break;
   }
+  discardBody();
   enter(Phase::kFinished);
+}
+
+// The end of a file waits for the disk's journal, which this thread must not.
+void Connection::discardBody() {
+  if (body_ && body_->isOnDisk()) {
+    context_.pool.submit(HandlerPool::Lane::kContinue,
+                         [body = std::exchange(body_, nullptr)]() mutable { body = nullptr; });
+  }
+  body_ = nullptr;
 }
 
 }  // namespace gaitmill::api

@@ -37,9 +37,7 @@ HttpReply callRoute(Exchange& exchange, const ServerLog& log) {
   }
 }
 
-}  // namespace
-
-Response answerExchange(Exchange& exchange, const ServerLog& log) {
+Response prepareAnswer(Exchange& exchange, const ServerLog& log) {
   HttpReply reply = callRoute(exchange, log);
   try {
     return prepareResponse(std::move(reply), exchange.conditions);
@@ -49,6 +47,18 @@ Response answerExchange(Exchange& exchange, const ServerLog& log) {
     const Error fault(ErrorCode::kInternal, error.what());
     return prepareResponse(replyFault(exchange, log, fault), exchange.conditions);
   }
+}
+
+}  // namespace
+
+Response answerExchange(Exchange& exchange, const ServerLog& log) {
+  Response response = prepareAnswer(exchange, log);
+  if (!response.park) {
+    // The end of a spooled body waits for the disk, which the reactor must not.
+    exchange.request.parts.clear();
+    exchange.request.body = makeByteSource("");
+  }
+  return response;
 }
 
 }  // namespace gaitmill::api

@@ -488,6 +488,10 @@ TEST_F(CrowdTest, DescriptorsAreGivenBack) {
     }
   }
   EXPECT_TRUE(server().awaitLoad([](const ServerLoad& load) { return load.connections == 0; }));
+  // Spool files are closed by the handler threads, soon after.
+  for (int i = 0; i < 1000 && countDescriptors() != before; ++i) {
+    std::this_thread::sleep_for(milliseconds(10));
+  }
   EXPECT_EQ(countDescriptors(), before);
 }
 
