@@ -14,6 +14,22 @@ namespace {
 constexpr std::size_t kMaxBatch = 256;
 constexpr std::chrono::milliseconds kWipeAgainAfter{20};
 
+enum class Emptying { kDone, kInUse, kFailed };
+
+// Without waiting for readers: there are writers to serve.
+Emptying emptyLog(Connection& db) {
+  Emptying outcome = Emptying::kFailed;
+  db.runScript(dialect::kWaitShort);
+  try {
+    Statement row = db.prepare(dialect::kEmptyLog);
+    outcome = row.step() && row.integer(0) == 0 ? Emptying::kDone : Emptying::kInUse;
+  } catch (const Error&) {
+    outcome = Emptying::kFailed;  // asked again later, but nobody waits for a failing disk
+  }
+  db.runScript(dialect::kWaitLong);
+  return outcome;
+}
+
 }  // namespace
 
 GroupCommit::GroupCommit(std::unique_ptr<Connection> connection)
@@ -50,8 +66,11 @@ void GroupCommit::submit(std::deque<Request*>& queue, const Work& work) {
 bool GroupCommit::wipe(std::chrono::milliseconds limit) {
   std::unique_lock<std::mutex> lock(guard_);
   const std::uint64_t mine = ++wipes_wanted_;
+  const std::uint64_t failures = wipe_failures_;
   wanted_.notify_one();
-  return wiped_changed_.wait_for(lock, limit, [this, mine] { return wipes_done_ >= mine; });
+  wiped_changed_.wait_for(
+      lock, limit, [&] { return wipes_done_ >= mine || wipe_failures_ > failures; });
+  return wipes_done_ >= mine;
 }
 
 std::string GroupCommit::findFailure() const {
@@ -176,21 +195,14 @@ void GroupCommit::wipeIfWanted() {
     }
     wanted = wipes_wanted_;
   }
-  bool emptied = false;
-  try {
-    connection_->runScript(dialect::kWaitShort);
-    {
-      Statement outcome = connection_->prepare(dialect::kEmptyLog);
-      emptied = outcome.step() && outcome.integer(0) == 0;
-    }
-    connection_->runScript(dialect::kWaitLong);
-  } catch (const Error&) {
-    emptied = false;  // a disk that fails now is asked again
-  }
+  const Emptying outcome = emptyLog(*connection_);
+  const bool emptied = outcome == Emptying::kDone;
+  const bool failed = outcome == Emptying::kFailed;
   const std::lock_guard<std::mutex> lock(guard_);
   wipe_was_refused_ = !emptied;
-  if (emptied) {
-    wipes_done_ = wanted;
+  wipes_done_ = emptied ? wanted : wipes_done_;
+  wipe_failures_ += failed ? 1U : 0U;
+  if (emptied || failed) {
     wiped_changed_.notify_all();
   }
 }

@@ -32,8 +32,8 @@ class GroupCommit {
   /// Returns when the work is durable. @throws what the work or the commit throws
   void run(const Work& work);
   void runBulk(const Work& work);
-  /// Empties the log after all that was written before the call. @returns false if that was not
-  /// possible within the limit; it is then done later.
+  /// Empties the log after all that was written before the call. @returns false if the disk failed,
+  /// or readers stood in the way until the limit; it is then tried again until it is done.
   bool wipe(std::chrono::milliseconds limit);
   /// Why the last batch failed; empty once another has succeeded.
   std::string findFailure() const;
@@ -67,6 +67,7 @@ class GroupCommit {
   std::deque<Request*> bulk_;
   std::uint64_t wipes_wanted_ = 0;
   std::uint64_t wipes_done_ = 0;
+  std::uint64_t wipe_failures_ = 0;
   bool wipe_was_refused_ = false;  ///< by a reader: try again in a moment
   bool stopping_ = false;
   std::string failing_;  ///< of the batch under way, for the writer thread alone
