@@ -190,6 +190,7 @@ bool JobStore::saveStage(const JobTicket& ticket, const FinishedStage& finished)
                    putResults(db, ticket.job_id, results);
                    recordStep(db, ticket.job_id, finished.stages, finished.new_warnings, changes);
                    db.prepare(sql::kSettleWarnings).bind(1, ticket.job_id).run();
+                   db.prepare(sql::kForgiveDeaths).bind(1, ticket.job_id).run();
                  });
 }
 

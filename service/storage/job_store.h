@@ -145,7 +145,9 @@ struct StageEstimate {
 ///   warning   {"message": "…"}
 class JobStore {
  public:
-  /// A job whose attempts have died this often has caused it, most likely.
+  /// A job whose attempts have died this often in the same stage has caused it, most likely. A
+  /// finished stage counts from zero again: a service that is killed again and again must not give
+  /// up jobs that move on.
   static constexpr int kMaxDeaths = 3;
 
   explicit JobStore(Database& database) : database_(database) {}

@@ -51,6 +51,7 @@ inline constexpr const char* kRenewLease = "UPDATE jobs SET lease_until = ?2 WHE
 inline constexpr const char* kGiveBack =
     "UPDATE jobs SET owner = '', lease_until = 0, deaths = deaths + ?2, "
     "last_death = coalesce(?3, last_death) WHERE id = ?1";
+inline constexpr const char* kForgiveDeaths = "UPDATE jobs SET deaths = 0 WHERE id = ?1";
 inline constexpr const char* kListHeldBy =
     "SELECT id, claim FROM jobs WHERE state = 'running' AND lease_until > 0 "
     "AND substr(owner, 1, length(?1)) = ?1 ORDER BY id";
