@@ -20,10 +20,11 @@ T parseAs(const std::vector<std::string>& arguments) {
 TEST(CommandLine, ServeTakesFlagsThenVariablesThenDefaults) {
   ::setenv("GAITMILL_WORKERS", "3", 1);
   ::setenv("GAITMILL_PORT", "81", 1);
-  const auto config = parseAs<ServeConfig>({"serve", "--port", "0", "--db", "x.db"});
+  const ServeConfig config =
+      parseAs<ServeOptions>({"serve", "--port", "0", "--db", "x.db"}).configuration.values;
   ::unsetenv("GAITMILL_WORKERS");
   ::unsetenv("GAITMILL_PORT");
-  EXPECT_EQ(config.database, "x.db");
+  EXPECT_EQ(config.db, "x.db");
   EXPECT_EQ(config.port, 0);
   EXPECT_EQ(config.workers, 3);
   EXPECT_EQ(config.host, "127.0.0.1");
@@ -63,9 +64,38 @@ TEST(CommandLine, ModelAndSampleHaveTheirFlags) {
   parseAs<VersionOptions>({"version"});
 }
 
+TEST(CommandLine, OperatorsHaveTheirCommands) {
+  EXPECT_EQ(parseAs<ServeOptions>({"work", "--db", "x.db"}).action, ServeOptions::Action::kWork);
+  EXPECT_EQ(parseAs<ServeOptions>({"serve", "--print-config"}).action,
+            ServeOptions::Action::kPrintConfig);
+  EXPECT_EQ(parseAs<BackupOptions>({"backup", "b.db", "--db", "x.db"}).database, "x.db");
+  EXPECT_EQ(parseAs<RestoreOptions>({"restore", "CMakeLists.txt", "--overwrite"}).overwrite,
+            RestoreOptions::Overwrite::kYes);
+  const auto keys = parseAs<KeysOptions>(
+      {"keys", "create", "--name", "lab", "--scopes", "read,admin", "--db", "x.db"});
+  EXPECT_EQ(keys.database, "x.db");
+  EXPECT_EQ(std::get<CreateKeyOptions>(keys.action).scopes,
+            (std::vector<std::string>{"read", "admin"}));
+  EXPECT_EQ(
+      std::get<RevokeKeyOptions>(parseAs<KeysOptions>({"keys", "revoke", "key_1"}).action).key_id,
+      "key_1");
+}
+
+TEST(CommandLine, ChildrenAreNotForPeople) {
+  const auto child = parseAs<ChildOptions>(
+      {"solve", "--models", "m", "--parent", "7", "--memory-mb", "100", "--nice", "3"});
+  EXPECT_EQ(child.parent, 7);
+  EXPECT_EQ(child.limits.memory_mb, 100);
+  EXPECT_EQ(parseAs<PrintAndExit>({"--help"}).text.find("solve"), std::string::npos);
+}
+
 TEST(CommandLine, HelpIsEverywhereAndStatesTheExitCodes) {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
                                                     {"serve", "--help"},
+                                                    {"work", "--help"},
+                                                    {"backup", "--help"},
+                                                    {"restore", "--help"},
+                                                    {"keys", "--help"},
                                                     {"run", "--help"},
                                                     {"model", "--help"},
                                                     {"sample", "--help"},

@@ -1,26 +1,41 @@
-// fake_service DATABASE MODELS [WORKERS]: the service on a free port with the fake pipeline.
+// fake_service serve|work …: gaitmill with the fake pipeline; takes the same flags.
 
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <string>
+#include <vector>
 
+#include "service/command_line.h"
 #include "service/observe/log.h"
 #include "service/service.h"
+#include "service/solve_command.h"
 #include "tests/service/fake_pipeline.h"
 
-int main(int argc, char** argv) {
-  if (argc < 3) {
+namespace gaitmill {
+namespace {
+
+int execute(const Command& command) {
+  if (const auto* child = std::get_if<ChildOptions>(&command)) {
+    return runChild(*child, makeFakePipeline());
+  }
+  const auto* options = std::get_if<ServeOptions>(&command);
+  if (options == nullptr) {
     return EXIT_FAILURE;
   }
-  gaitmill::ServeConfig config;
-  config.database = argv[1];
-  config.models = argv[2];
-  config.port = 0;
-  config.workers = argc > 3 ? std::atoi(argv[3]) : 1;
-  config.stop_limit = std::chrono::milliseconds(1000);
+  const ServeConfig& config = options->configuration.values;
+  setUpLog(config.log_level, config.log_format);
+  return options->action == ServeOptions::Action::kWork ? runWork(config, makeFakePipeline())
+                                                        : runService(config, makeFakePipeline());
+}
+
+}  // namespace
+}  // namespace gaitmill
+
+int main(int argc, char** argv) {
   try {
-    gaitmill::setUpLog("error");
-    return gaitmill::runService(config, gaitmill::makeFakePipeline());
+    return gaitmill::execute(
+        gaitmill::parseCommandLine(std::vector<std::string>(argv + 1, argv + argc)));
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return EXIT_FAILURE;

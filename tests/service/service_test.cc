@@ -6,14 +6,17 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/error.h"
 #include "service/observe/log.h"
 #include "tests/http/http_client.h"
 #include "tests/service/child_process.h"
 #include "tests/service/fake_pipeline.h"
+#include "tests/service/observe/exposition.h"
 #include "tests/support/temporary_folder.h"
 
 namespace gaitmill {
@@ -27,6 +30,7 @@ const std::vector<ClientPart> kTrial = {
 
 void writeSettings(const TemporaryFolder& folder) {
   folder.write("models/settings/default.json", "{}");
+  folder.write("models/marker_sets/lab_a.json", R"({"markers": ["RASI"]})");
   folder.write("models/settings/slow.json", R"({"steps": 20, "step_ms": 10})");
 }
 
@@ -39,11 +43,13 @@ class ServiceTest : public ::testing::Test {
   }
 
   void startService() {
-    config_.database = folder_ / "mill.db";
+    config_.db = folder_ / "mill.db";
     config_.models = folder_ / "models";
     config_.port = 0;
     config_.workers = 2;
-    service_ = std::make_unique<Service>(config_, makeFakePipeline());
+    config_.spool = folder_.path();
+    config_.stop_limit_s = 0.2;
+    service_ = std::make_unique<Service>(config_, makeFakePipeline(), FAKE_SERVICE);
     client_ = std::make_unique<HttpClient>(service_->start());
   }
 
@@ -94,8 +100,10 @@ TEST_F(ServiceTest, TrialGoesInAndResultsComeOut) {
 TEST_F(ServiceTest, FailedStageSaysWhere) {
   const json job = client_->waitForState(submitJob({{"fail_at", "rra"}}), {"failed"});
   EXPECT_EQ(job["error"]["code"], "input.markers");
-  EXPECT_EQ(job["error"]["where"],
-            (json{{"file", "walk.trc"}, {"line", 7}, {"column", 3}, {"field", "RASI"}}));
+  EXPECT_EQ(
+      job["error"]["where"],
+      (json{
+          {"file", "walk.trc"}, {"line", 7}, {"column", 3}, {"field", "RASI"}, {"stage", "rra"}}));
   EXPECT_EQ(job["error"]["context"], json({"rra"}));
 }
 
@@ -119,12 +127,78 @@ TEST_F(ServiceTest, StoppingPutsRunningJobsBackAndTheNextStartFinishesThem) {
   EXPECT_EQ(job["attempt"], 2);
 }
 
+TEST_F(ServiceTest, MetricsAreInTheTextFormat) {
+  client_->waitForState(submitJob(json::object()), {"succeeded"});
+  const ClientReply reply = client_->get("/metrics");
+  EXPECT_EQ(reply.headers.at("Content-Type"), "text/plain; version=0.0.4; charset=utf-8");
+  const Exposition exposition = parseExposition(reply.body);
+  EXPECT_EQ(exposition.faults, std::vector<std::string>());
+  EXPECT_EQ(exposition.samples.at("gaitmill_jobs{state=\"succeeded\"}"), 1);
+  EXPECT_EQ(exposition.samples.at("gaitmill_queue_depth"), 0);
+  EXPECT_EQ(exposition.samples.at("gaitmill_stage_seconds_count{stage=\"cmc\"}"), 1);
+  EXPECT_EQ(exposition.samples.at("gaitmill_http_request_seconds_count{route=\"/v1/jobs\","
+                                  "method=\"POST\",status=\"202\"}"),
+            1);
+  EXPECT_GT(exposition.samples.at("gaitmill_database_bytes"), 0);
+}
+
+// Not ready at once, but answering until the running jobs have ended.
+TEST_F(ServiceTest, StoppingServiceIsNotReady) {
+  EXPECT_EQ(client_->get("/readyz").status, 200);
+  const std::string gate = folder_ / "gate";
+  const std::string id = submitJob({{"gate", gate}});
+  client_->waitForState(id, {"running"});
+  service_.reset();
+  config_.stop_limit_s = 60;
+  startService();
+  client_->waitForState(id, {"running"});
+  std::thread stopper([this] { EXPECT_TRUE(service_->stop()); });
+  ClientReply ready;
+  do {
+    ready = client_->get("/readyz");
+  } while (ready.status == 200);
+  EXPECT_EQ(ready.status, 503) << ready.body;
+  EXPECT_EQ(ready.json()["code"], "service.not_ready");
+  EXPECT_EQ(client_->get("/livez").status, 200);
+  for (const char* stage : {"scale", "ik", "rra", "id", "so", "cmc"}) {
+    folder_.write(std::string("gate.") + stage, "");
+  }
+  stopper.join();
+}
+
+TEST(ServiceKeys, WithoutKeysOnlyThisMachineIsServed) {
+  const TemporaryFolder folder;
+  writeSettings(folder);
+  ServeConfig config;
+  config.db = folder / "mill.db";
+  config.models = folder / "models";
+  config.host = "0.0.0.0";
+  config.port = 0;
+  try {
+    const Service service(config, makeFakePipeline(), FAKE_SERVICE);
+    FAIL() << "it would be open to the network";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kConfig);
+    EXPECT_EQ(error.where().field, "host");
+  }
+}
+
 // The process is killed in the middle of several jobs, again and again; every job completes.
 TEST(ServiceProcess, KillInMidJobLosesNothing) {
   const TemporaryFolder folder;
   writeSettings(folder);
-  const std::vector<std::string> command = {
-      FAKE_SERVICE, folder / "mill.db", folder / "models", "2"};
+  const std::vector<std::string> command = {FAKE_SERVICE,
+                                            "serve",
+                                            "--db",
+                                            folder / "mill.db",
+                                            "--models",
+                                            folder / "models",
+                                            "--workers",
+                                            "2",
+                                            "--port",
+                                            "0",
+                                            "--log-level",
+                                            "off"};
   std::set<std::string> jobs;
   for (int round = 0; round < 2; ++round) {
     ChildProcess process(command);
