@@ -107,6 +107,11 @@ json toJson(const UnderstoodFile& file) {
   return object;
 }
 
+std::int64_t getInteger(const json& value) {
+  gaitmill::require(value.is_number_integer(), ErrorCode::kStorage, "a count is no integer");
+  return value.get<std::int64_t>();
+}
+
 void readLists(const json& object, UnderstoodFile& file) {
   for (const char* kind : {"markers", "forces", "columns", "muscles"}) {
     if (object.contains(kind)) {
@@ -126,10 +131,12 @@ UnderstoodFile toFile(const json& object) {
   UnderstoodFile file;
   file.part = object.at("part");
   file.name = object.at("name");
-  file.size = object.at("size_bytes");
+  file.size = getInteger(object.at("size_bytes"));
   file.sha256 = object.at("sha256");
   file.format = object.at("format");
-  file.frames = getIfPresent<int>(object, "frames");
+  if (object.contains("frames")) {
+    file.frames = static_cast<int>(getInteger(object.at("frames")));
+  }
   file.rate = getIfPresent<double>(object, "rate_hz");
   file.start = getIfPresent<double>(object, "start_s");
   file.end = getIfPresent<double>(object, "end_s");
@@ -195,16 +202,20 @@ std::string encodeUnderstanding(const TrialView& trial) {
 }
 
 void decodeUnderstanding(const std::string& text, TrialView& trial) {
-  const json object = json::parse(text);
-  trial.files.clear();
-  for (const json& file : object.at("files")) {
-    trial.files.push_back(toFile(file));
+  try {
+    const json object = json::parse(text);
+    trial.files.clear();
+    for (const json& file : object.at("files")) {
+      trial.files.push_back(toFile(file));
+    }
+    trial.events.clear();
+    for (const json& event : object.at("events")) {
+      trial.events.push_back(toEvent(event));
+    }
+    trial.warnings = object.at("warnings").get<std::vector<std::string>>();
+  } catch (const json::exception&) {
+    throw Error(ErrorCode::kStorage, "what was understood of a trial is damaged");
   }
-  trial.events.clear();
-  for (const json& event : object.at("events")) {
-    trial.events.push_back(toEvent(event));
-  }
-  trial.warnings = object.at("warnings").get<std::vector<std::string>>();
 }
 
 }  // namespace gaitmill::api

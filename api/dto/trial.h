@@ -96,6 +96,7 @@ std::string renderTrial(const TrialView& trial);
 /// What was understood (files, events, warnings) as JSON and back: how a trial's reading is kept in
 /// storage, and how it comes back from the process that reads hostile bytes.
 std::string encodeUnderstanding(const TrialView& trial);
+/// @throws Error kStorage if the text is no such JSON
 void decodeUnderstanding(const std::string& json, TrialView& trial);
 
 }  // namespace gaitmill::api

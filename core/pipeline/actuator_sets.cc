@@ -12,7 +12,7 @@ namespace gaitmill {
 
 ActuatorSetSettings makeTrackingActuators() {
   ActuatorSetSettings set;
-  set.residuals.emplace();
+  set.residuals = ActuatorSetSettings::Residuals();
   set.residuals->optimal_force = 1.5;
   set.residuals->optimal_moment = 1;
   set.residuals->control_limit = 1e9;
@@ -37,7 +37,7 @@ ActuatorSetSettings makeTrackingActuators() {
 
 ActuatorSetSettings makeReserveActuators() {
   ActuatorSetSettings set;
-  set.residuals.emplace();
+  set.residuals = ActuatorSetSettings::Residuals();
   set.coordinates = {{"hip_flexion", 2.5},
                      {"hip_adduction", 5},
                      {"hip_rotation", 10},

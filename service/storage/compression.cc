@@ -2,6 +2,8 @@
 
 #include <zstd.h>
 
+#include <cstdint>
+
 #include "core/base/error.h"
 #include "service/storage/sha256.h"
 
@@ -12,7 +14,18 @@ namespace {
 // zstd's own default: text of numbers to about a third at several hundred MB/s.
 constexpr int kLevel = 3;
 
+/// Whether so few bytes can stand for so many: a block of zstd takes three bytes and one more, and
+/// holds 128 KiB at most. What a damaged row merely claims is not allocated.
+bool isPossible(const PackedBytes& packed) {
+  constexpr std::uint64_t kBlock = 128U << 10U;
+  const std::uint64_t limit = (packed.bytes.size() / 4 + 1) * kBlock;
+  return packed.size >= 0 && static_cast<std::uint64_t>(packed.size) <= limit;
+}
+
 std::string decompress(const PackedBytes& packed) {
+  if (!isPossible(packed)) {
+    return {};
+  }
   std::string plain(static_cast<std::size_t>(packed.size), '\0');
   const std::size_t size =
       ZSTD_decompress(plain.data(), plain.size(), packed.bytes.data(), packed.bytes.size());
