@@ -40,7 +40,7 @@ inline constexpr const char* kFindOldestLapsed =
 inline constexpr const char* kConnectionSettings =
     "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;"
     "PRAGMA secure_delete = ON; PRAGMA temp_store = MEMORY; PRAGMA trusted_schema = OFF;"
-    "PRAGMA wal_autocheckpoint = 4000; PRAGMA cache_size = -8000";
+    "PRAGMA wal_autocheckpoint = 4000; PRAGMA cache_size = -2000";
 /// Empties the log file; the first column is 1 if readers prevented it. PostgreSQL: nothing to do,
 /// but deleted rows stay in the files until VACUUM, and in its log until that is recycled.
 inline constexpr const char* kEmptyLog = "PRAGMA wal_checkpoint(TRUNCATE)";

@@ -19,6 +19,30 @@ namespace {
 
 using api::JobState;
 
+ErrorCode findCode(const std::string& name) {
+  for (const ErrorCode code : allErrorCodes()) {
+    if (codeName(code) == name) {
+      return code;
+    }
+  }
+  return ErrorCode::kInternal;
+}
+
+// Jobs that failed under version 3 keep {"code", "message", "where"}: no problem details yet.
+std::string renderStoredError(const std::string& text) {
+  const nlohmann::json stored = nlohmann::json::parse(text);
+  if (!stored.contains("message")) {
+    return text;
+  }
+  const nlohmann::json where = stored.value("where", nlohmann::json::object());
+  return api::renderProblemObject(Error(findCode(stored.value("code", "")),
+                                        stored.value("message", ""),
+                                        {where.value("file", ""),
+                                         where.value("line", 0),
+                                         where.value("column", 0),
+                                         where.value("field", "")}));
+}
+
 std::optional<std::string> orNothing(const std::string& text) {
   return text.empty() ? std::nullopt : std::optional(text);
 }
@@ -131,7 +155,9 @@ api::JobView readJobRow(const Statement& row) {
   job.submitted_at = row.integer(6);
   job.started_at = row.optionalInteger(7);
   job.finished_at = row.optionalInteger(8);
-  job.error = row.optionalText(9);
+  if (const auto error = row.optionalText(9)) {
+    job.error = renderStoredError(*error);
+  }
   job.study_id = row.text(10);
   job.model_id = row.text(11);
   job.label = row.text(12);

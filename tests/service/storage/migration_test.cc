@@ -64,7 +64,8 @@ void populateJobs(Connection& db) {
     INSERT INTO jobs VALUES ('job_01hf3v6k9e2m8xw7p0q4t5r6q3', 'tri_01hf3v6k9e2m8xw7p0q4t5r6s1',
       'default', '{}', 'succeeded', 1, 0, 0, 102, 112, 122, NULL);
     INSERT INTO jobs VALUES ('job_01hf3v6k9e2m8xw7p0q4t5r6q4', 'tri_01hf3v6k9e2m8xw7p0q4t5r6s1',
-      'default', '{}', 'failed', 1, 0, 0, 103, 113, 123, '{"code":"input.markers"}');
+      'default', '{}', 'failed', 1, 0, 0, 103, 113, 123,
+      '{"code":"input.markers","message":"no marker","where":{"file":"w.trc","line":3}}');
     INSERT INTO jobs VALUES ('job_01hf3v6k9e2m8xw7p0q4t5r6q5', 'tri_01hf3v6k9e2m8xw7p0q4t5r6s1',
       'default', '{}', 'cancelled', 0, 0, 1, 104, NULL, 124, NULL);
     INSERT INTO job_stages VALUES ('job_01hf3v6k9e2m8xw7p0q4t5r6q3', 0, 'ik', 1.5, 1.0);
@@ -138,7 +139,11 @@ void expectJobs(Database& database) {
   EXPECT_EQ(find("3").state, State::kSucceeded);
   EXPECT_EQ(find("3").stages.at(0).seconds, 1.5);
   EXPECT_EQ(find("3").warnings, std::vector<std::string>{"careful"});
-  EXPECT_EQ(find("4").error, R"({"code":"input.markers"})");
+  const auto problem = nlohmann::json::parse(find("4").error.value());
+  EXPECT_EQ(problem["code"], "input.markers");
+  EXPECT_EQ(problem["detail"], "no marker");
+  EXPECT_EQ(problem["where"]["line"], 3);
+  EXPECT_TRUE(problem.contains("fix") && problem.contains("title")) << "a problem like any other";
   EXPECT_EQ(find("5").state, State::kCancelled);
   EXPECT_EQ(jobs.list(kLocal, {}, {}).items.size(), 5U);
   EXPECT_EQ(KeyStore(database).findUsage(kLocal, "").jobs, 5);
