@@ -13,7 +13,7 @@ namespace gaitmill {
 /// steps per stage and their time, the stage that throws, a warning, the stage in which the process
 /// kills itself, whether requests to stop are ignored, and a prefix of files: stage S begins when
 /// the file "<gate>.S" is there. Every stage leaves a checkpoint and the file
-/// "<stage>.txt"; ID leaves the table "moments", CMC all tables. Results depend on the settings
+/// "<stage>.txt"; ID leaves a first table "moments", CMC all tables. Results depend on the settings
 /// only, however often a run was resumed.
 PipelineFunctions makeFakePipeline();
 

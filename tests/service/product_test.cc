@@ -173,11 +173,15 @@ TEST(Product, JobsSideBySideGiveTheSameBits) {
   const std::string trial = service.uploadSample();
   const std::vector<std::string> ids = {service.submit(trial), service.submit(trial)};
   std::vector<std::string> activations;
+  std::vector<std::string> etags;
   for (const std::string& id : ids) {
     EXPECT_EQ(service.client().waitForState(id, {"succeeded", "failed"})["state"], "succeeded");
-    activations.push_back(service.client().get("/v1/jobs/" + id + "/results/activations").body);
+    const ClientReply reply = service.client().get("/v1/jobs/" + id + "/results/activations");
+    activations.push_back(reply.body);
+    etags.push_back(reply.headers.at("ETag"));
   }
   EXPECT_EQ(activations[0], activations[1]);
+  EXPECT_EQ(etags[0], etags[1]) << "equal work has equal provenance";
 }
 
 // Hashes of all files but the summary, which holds processor seconds.
