@@ -125,7 +125,7 @@ class Chaos {
 
   void start() {
     const auto begin = Clock::now();
-    mill_ = std::make_unique<Mill>(program_, folder_ / "mill.db", workers_);
+    mill_ = std::make_unique<Mill>(program_, folder_ / "mill.db", "models", workers_);
     counts_.longest_start = std::max(counts_.longest_start, secondsSince(begin));
   }
 

@@ -48,7 +48,10 @@ pid_t findParent(const std::string& pid) {
 
 }  // namespace
 
-Mill::Mill(const std::string& program, const std::string& database, int workers) {
+Mill::Mill(const std::string& program,
+           const std::string& database,
+           const std::string& models,
+           int workers) {
   std::vector<std::string> texts = {program,
                                     "serve",
                                     "--db",
@@ -58,7 +61,7 @@ Mill::Mill(const std::string& program, const std::string& database, int workers)
                                     "--workers",
                                     std::to_string(workers),
                                     "--models",
-                                    "models",
+                                    models,
                                     "--log-level",
                                     "error"};
   std::vector<char*> arguments;

@@ -14,7 +14,11 @@ namespace gaitmill {
 class Mill {
  public:
   /// Starts it and waits until it says its address. @throws std::runtime_error if it does not
-  Mill(const std::string& program, const std::string& database, int workers);
+  /// @param models  folder
+  Mill(const std::string& program,
+       const std::string& database,
+       const std::string& models,
+       int workers);
   /// Kills the whole group.
   ~Mill();
   Mill(const Mill&) = delete;
