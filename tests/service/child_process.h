@@ -19,6 +19,7 @@ class ChildProcess {
   /// Empty at the end of output.
   std::string readLine();
   void signal(int number) const;
+  pid_t pid() const { return pid_; }
   /// Waits for the end. @returns the exit code, or 128 + the signal that ended it
   int wait();
 

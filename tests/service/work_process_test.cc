@@ -1,5 +1,7 @@
 // `gaitmill work` as processes of its own beside a database that the test has open.
 
+#include <sys/resource.h>
+
 #include <chrono>
 #include <csignal>
 #include <memory>
@@ -89,6 +91,31 @@ TEST_F(WorkProcessTest, ProcessAsleepPastItsLeaseChangesNothing) {
   EXPECT_EQ(later.version, done.version) << "no write has come through";
   other->signal(SIGTERM);
   EXPECT_EQ(other->wait(), 0);
+}
+
+// No file of the process may grow: its stages find no room, and the job waits for it.
+TEST_F(WorkProcessTest, JobWithoutRoomForItsResultsIsParkedAndGoesOn) {
+  fixture_.folder().write("gate.scale", "");
+  const std::string id = submitBehindGate();
+  const auto worker = startWork("600");
+  waitUntil(id, [](const api::JobView& job) { return job.stages.size() == 2; });
+  rlimit unlimited{};
+  ASSERT_EQ(::prlimit(worker->pid(), RLIMIT_FSIZE, nullptr, &unlimited), 0);
+  const rlimit full{0, unlimited.rlim_max};
+  ASSERT_EQ(::prlimit(worker->pid(), RLIMIT_FSIZE, &full, nullptr), 0);
+  openGates();
+  // Long enough for several tries to store; the outcome does not depend on how many.
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  EXPECT_EQ(fixture_.stores().jobs.find(who_.tenant, id).state, State::kRunning);
+  ASSERT_EQ(::prlimit(worker->pid(), RLIMIT_FSIZE, &unlimited, nullptr), 0);
+  const auto has_ended = [](const api::JobView& job) {
+    return api::isFinal(job.state);
+  };
+  const api::JobView done = waitUntil(id, has_ended);
+  EXPECT_EQ(done.state, State::kSucceeded) << done.error.value_or("");
+  EXPECT_EQ(done.attempt, 1);
+  EXPECT_EQ(done.stages.size(), 6U);
+  EXPECT_EQ(fixture_.database().checkIntegrity(), "ok");
 }
 
 TEST_F(WorkProcessTest, CancellationReachesAnotherProcess) {
