@@ -57,6 +57,7 @@ ChannelPair makeErrorPipe() {
 std::vector<std::string> makeEnvironment() {
   std::vector<std::string> kept = {"LC_ALL=C.UTF-8"};
   for (const char* name : {"PATH",
+                           "GALLIUM_DRIVER",
                            "LD_LIBRARY_PATH",
                            "ASAN_OPTIONS",
                            "UBSAN_OPTIONS",

@@ -37,9 +37,9 @@ using ChildCommand = std::vector<std::string>;
 
 /// A child process of this program with nothing but a channel to us: file 0 and 1 are /dev/null, 2
 /// is a pipe to us, kChannelFd the channel; every other file is closed and the environment holds
-/// only what the loader and the sanitizers need. It dies when its channel closes, and with the
-/// thread that started it. Started
-/// with posix_spawn, so that a service of many threads may do it.
+/// only what the loader, the renderer and the sanitizers need. It dies when its channel closes, and
+/// with the thread that started it. Started with posix_spawn, so that a service of many threads may
+/// do it.
 class Child {
  public:
   static constexpr int kChannelFd = 3;
