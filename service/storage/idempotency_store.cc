@@ -26,6 +26,12 @@ std::optional<StoredAnswer> findAnswer(Connection& db,
       row.text(6)};
 }
 
+void releaseKey(Connection& db, const std::string& tenant, const std::string& key) {
+  for (const char* release : sql::kReleaseKey) {
+    db.prepare(release).bind(1, tenant).bind(2, key).run();
+  }
+}
+
 }  // namespace
 
 std::optional<api::KeptAnswer> IdempotencyStore::begin(const std::string& tenant,
@@ -35,9 +41,13 @@ std::optional<api::KeptAnswer> IdempotencyStore::begin(const std::string& tenant
     const std::int64_t now = nowMilliseconds();
     const std::optional<StoredAnswer> known = findAnswer(db, tenant, key);
     const bool is_expired = known && known->created_at < now - kKeptMilliseconds;
-    const bool is_orphan = known && known->answer.status == 0 && known->owner != owner_;
+    const bool is_orphan = known && known->answer.status == 0 && known->owner != owner_ &&
+                           known->answer.request_hash == request_hash;
     if (known && !is_expired && !is_orphan) {
       return known->answer;
+    }
+    if (is_expired) {
+      releaseKey(db, tenant, key);
     }
     db.prepare(sql::kBeginAnswer)
         .bind(1, tenant)
@@ -72,7 +82,11 @@ void IdempotencyStore::abandon(const std::string& tenant, const std::string& key
 
 int IdempotencyStore::removeExpired() {
   return static_cast<int>(database_.write([&](Connection& db) {
-    db.prepare(sql::kDropExpiredAnswers).bind(1, nowMilliseconds() - kKeptMilliseconds).run();
+    const std::int64_t expired = nowMilliseconds() - kKeptMilliseconds;
+    for (const char* release : sql::kReleaseExpiredKeys) {
+      db.prepare(release).bind(1, expired).run();
+    }
+    db.prepare(sql::kDropExpiredAnswers).bind(1, expired).run();
     return db.changes();
   }));
 }

@@ -21,13 +21,15 @@ class IdempotencyStore {
       : database_(database), owner_(std::move(owner)) {}
 
   /// Claims the key for this request, or returns what is there: the kept answer, or one with
-  /// status 0 while another request of this process is being answered.
+  /// status 0 while another request of this process is being answered, or where an earlier process
+  /// began another request under this key and never answered it.
   std::optional<api::KeptAnswer> begin(const std::string& tenant,
                                        const std::string& key,
                                        const std::string& request_hash);
   void finish(const std::string& tenant, const std::string& key, const api::KeptAnswer& answer);
   void abandon(const std::string& tenant, const std::string& key);
-  /// Forgets answers older than a day. @returns how many
+  /// Forgets answers older than a day, and which key stored what before that. @returns how many
+  /// answers
   int removeExpired();
 
  private:

@@ -18,4 +18,22 @@ inline constexpr const char* kAbandonAnswer =
     "DELETE FROM idempotency WHERE tenant = ?1 AND key = ?2 AND status = 0";
 inline constexpr const char* kDropExpiredAnswers = "DELETE FROM idempotency WHERE created_at < ?1";
 
+// What was stored under a key whose day is over: the next request with this key is a new one.
+inline constexpr const char* kReleaseKey[] = {
+    "UPDATE trials SET submission_key = '' "
+    "WHERE tenant = ?1 AND submission_key = ?2 AND submission_key <> ''",
+    "UPDATE jobs SET submission_key = '' "
+    "WHERE tenant = ?1 AND submission_key = ?2 AND submission_key <> ''",
+    "UPDATE studies SET submission_key = '' "
+    "WHERE tenant = ?1 AND submission_key = ?2 AND submission_key <> ''",
+    "UPDATE catalog SET submission_key = '' "
+    "WHERE tenant = ?1 AND submission_key = ?2 AND submission_key <> ''",
+};
+inline constexpr const char* kReleaseExpiredKeys[] = {
+    "UPDATE trials SET submission_key = '' WHERE submission_key <> '' AND created_at < ?1",
+    "UPDATE jobs SET submission_key = '' WHERE submission_key <> '' AND submitted_at < ?1",
+    "UPDATE studies SET submission_key = '' WHERE submission_key <> '' AND created_at < ?1",
+    "UPDATE catalog SET submission_key = '' WHERE submission_key <> '' AND created_at < ?1",
+};
+
 }  // namespace gaitmill::sql

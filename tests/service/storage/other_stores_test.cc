@@ -224,5 +224,34 @@ TEST_F(IdempotencyStoreTest, RequestThatDiedWithItsProcessMayBeginAgain) {
   EXPECT_TRUE(next.begin(kTenant, "k", "hash").has_value());
 }
 
+TEST_F(IdempotencyStoreTest, OtherRequestUnderADeadRequestsKeyIsNotItsRepetition) {
+  store_.begin(kTenant, "k", "hash");
+  IdempotencyStore next(database_, "serve:2");
+  const auto known = next.begin(kTenant, "k", "other");
+  ASSERT_TRUE(known.has_value());
+  EXPECT_EQ(known->request_hash, "hash");
+}
+
+TEST_F(IdempotencyStoreTest, KeyOfYesterdayStoresAnew) {
+  TrialStore trials(database_);
+  NewTrial trial;
+  trial.tenant = kTenant;
+  trial.subject.mass = 70;
+  trial.subject.height = 1.7;
+  trial.submission_key = "k";
+  store_.begin(kTenant, "k", "hash");
+  const std::string first = trials.add(trial).id;
+  EXPECT_EQ(trials.add(trial).id, first);
+  tamper(database_, "UPDATE idempotency SET created_at = created_at - 90000000");
+  EXPECT_FALSE(store_.begin(kTenant, "k", "hash").has_value());
+  const std::string second = trials.add(trial).id;
+  EXPECT_NE(second, first);
+  store_.removeExpired();
+  EXPECT_EQ(trials.add(trial).id, second) << "stored today";
+  tamper(database_, "UPDATE trials SET created_at = created_at - 90000000");
+  store_.removeExpired();
+  EXPECT_NE(trials.add(trial).id, second);
+}
+
 }  // namespace
 }  // namespace gaitmill
