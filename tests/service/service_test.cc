@@ -166,6 +166,23 @@ TEST_F(ServiceTest, StoppingServiceIsNotReady) {
   stopper.join();
 }
 
+// What a process of its own reads gives the same answers and the same errors.
+TEST_F(ServiceTest, LargeUploadsAreReadByAChild) {
+  const json in_process = client_->upload("/v1/trials", kTrial).json();
+  service_.reset();
+  config_.inspect_in_child_mb = 0;
+  startService();
+  json in_child = client_->upload("/v1/trials", kTrial).json();
+  EXPECT_EQ(in_child["files"], in_process["files"]);
+  EXPECT_EQ(in_child["warnings"], in_process["warnings"]);
+  const ClientReply refused =
+      client_->upload("/v1/trials", {kTrial[0], kTrial[1], {"grf", "grf.mot", ""}});
+  EXPECT_EQ(refused.status, 422) << refused.body;
+  EXPECT_EQ(refused.json()["code"], "file.empty");
+  EXPECT_EQ(refused.json()["where"]["file"], "grf.mot");
+  EXPECT_EQ(refused.json()["where"]["line"], 1);
+}
+
 TEST(ServiceKeys, WithoutKeysOnlyThisMachineIsServed) {
   const TemporaryFolder folder;
   writeSettings(folder);
