@@ -62,17 +62,26 @@ api::FileContent JobArchive::make(const std::string& tenant, const std::string& 
           "the archive is there when the job has succeeded; it is " +
               std::string(api::jobStateName(job.state)),
           {"", 0, 0, job_id});
-  const std::lock_guard<std::mutex> lock(guard_);
-  const auto kept = std::find_if(kept_.begin(), kept_.end(), [&job_id](const auto& archive) {
-    return archive.first == job_id;
-  });
-  if (kept != kept_.end()) {
-    kept_.splice(kept_.begin(), kept_, kept);
-  } else {
-    kept_.emplace_front(job_id, build(tenant, job));
-    kept_.resize(std::min(kept_.size(), kKept));
+  if (const auto kept = findKept(job_id)) {
+    return *kept;
   }
-  return kept_.front().second;
+  // Built without the lock: nobody waits for the archive of another job.
+  api::FileContent archive = build(tenant, job);
+  const std::lock_guard<std::mutex> lock(guard_);
+  kept_.emplace_front(job_id, archive);
+  kept_.resize(std::min(kept_.size(), kKept));
+  return archive;
+}
+
+std::optional<api::FileContent> JobArchive::findKept(const std::string& job_id) {
+  const std::lock_guard<std::mutex> lock(guard_);
+  const auto kept = std::find_if(
+      kept_.begin(), kept_.end(), [&job_id](const auto& entry) { return entry.first == job_id; });
+  if (kept == kept_.end()) {
+    return std::nullopt;
+  }
+  kept_.splice(kept_.begin(), kept_, kept);
+  return kept->second;
 }
 
 api::FileContent JobArchive::build(const std::string& tenant, const api::JobView& job) {

@@ -2,6 +2,7 @@
 
 #include <list>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -37,6 +38,7 @@ class JobArchive {
   api::FileContent make(const std::string& tenant, const std::string& job_id);
 
  private:
+  std::optional<api::FileContent> findKept(const std::string& job_id);
   api::FileContent build(const std::string& tenant, const api::JobView& job);
   void addInputs(const std::string& tenant,
                  const api::JobView& job,

@@ -17,6 +17,8 @@ namespace gaitmill {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{256} << 10;  // [bytes] read at a time
+// The archive of the sample, 39 MB of numbers: 1.5 s instead of 6.7 s of level 6, 7 % more bytes.
+constexpr const char* kLevel = "1";
 constexpr int kFileMode = 0644;
 constexpr std::time_t kFileTime = 315'532'800;  // [s] 1980-01-01 UTC, the first that zip can say
 
@@ -37,6 +39,8 @@ ArchivePointer openZip(int descriptor) {
   ArchivePointer zip(archive_write_new(), archive_write_free);
   check(zip != nullptr, "no memory for an archive");
   requireOk(zip.get(), archive_write_set_format_zip(zip.get()));
+  requireOk(zip.get(),
+            archive_write_set_format_option(zip.get(), "zip", "compression-level", kLevel));
   requireOk(zip.get(), archive_write_set_bytes_in_last_block(zip.get(), 1));
   requireOk(zip.get(), archive_write_open_fd(zip.get(), descriptor));
   return zip;
