@@ -73,9 +73,12 @@ InputFile JobComposer::composeSettings(const api::JobRequest& request,
   if (subject.marker_set) {
     options = mergeSettings(makeMarkerSetSettings(*subject.marker_set), options);
   }
-  return request.settings_name.empty()
-             ? mergeSettings(options, {"settings", request.settings_json})
-             : mergeSettings(settings_.find(request.settings_name), options);
+  if (!request.settings_name.empty()) {
+    return mergeSettings(settings_.find(request.settings_name), options);
+  }
+  InputFile merged = mergeSettings(options, {"settings", request.settings_json});
+  merged.name = "settings";  // where the caller looks for the field that is refused
+  return merged;
 }
 
 Provenance JobComposer::collectProvenance(const std::string& tenant,
