@@ -1,7 +1,6 @@
 #include "core/base/error.h"
 
 #include <cctype>
-#include <regex>
 #include <set>
 #include <string>
 
@@ -72,12 +71,25 @@ TEST(Where, IsEmptyUntilOneMemberIsKnown) {
   EXPECT_FALSE((Where{"", 0, 0, "field"}.isEmpty()));
 }
 
+/// Words of a to z and _, with single dots between them. (GCC 12 takes std::regex for uninitialized
+/// under the address sanitizer.)
+bool isDottedWords(const std::string& name) {
+  bool in_word = false;
+  for (const char c : name) {
+    const bool letter = (c >= 'a' && c <= 'z') || c == '_';
+    if (!letter && !(c == '.' && in_word)) {
+      return false;
+    }
+    in_word = letter;
+  }
+  return in_word;
+}
+
 TEST(ErrorCode, NamesAreUniqueDottedLowerCaseWords) {
-  const std::regex form("[a-z_]+(\\.[a-z_]+)*");
   std::set<std::string> names;
   for (const ErrorCode code : allErrorCodes()) {
     const std::string name(codeName(code));
-    EXPECT_TRUE(std::regex_match(name, form)) << name;
+    EXPECT_TRUE(isDottedWords(name)) << name;
     EXPECT_TRUE(names.insert(name).second) << name;
   }
 }
