@@ -113,6 +113,11 @@ void JobRun::announceBegin() {
 // What the storage refuses counts as a death, so that a damaged trial is not tried for ever; that
 // the machine has no process left for now is no fault of the job.
 std::optional<SolveOutcome> JobRun::attempt() {
+  // A cancellation that came between the claim and this run has found nobody to tell.
+  if (!goesOn()) {
+    settleStop();
+    return std::nullopt;
+  }
   try {
     const SolveRequest request = readRequest();
     return solveInChild(options_.solver, request, options_.limits, *this, &signals_.interrupt);
