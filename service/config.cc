@@ -1,5 +1,7 @@
 #include "service/config.h"
 
+#include <arpa/inet.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -214,14 +216,15 @@ const ConfigField& findField(const std::string& name, const std::string& file) {
       {file, 0, 0, name});
 }
 
-json parseFile(const std::string& path) {
-  const std::string text = readFile(path);
+json parseFile(const std::string& text, const std::string& path) {
   try {
     return json::parse(text);
   } catch (const json::parse_error& error) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
     const auto line = static_cast<int>(std::count(text.begin(), end, '\n')) + 1;
     throw Error(ErrorCode::kConfig, "this is not JSON", {path, line, 0, ""});
+  } catch (const json::out_of_range&) {
+    throw Error(ErrorCode::kConfig, "a number is beyond what a double holds", {path, 0, 0, ""});
   }
 }
 
@@ -233,8 +236,12 @@ void set(const ConfigField& field,
   configuration.sources[field.name] = source;
 }
 
-void applyFile(const std::string& path, Configuration& configuration) {
-  const json document = parseFile(path);
+}  // namespace
+
+void applyConfigFile(const std::string& text,
+                     const std::string& path,
+                     Configuration& configuration) {
+  const json document = parseFile(text, path);
   require(document.is_object(), ErrorCode::kConfig, "expected a JSON object", {path});
   for (const auto& [name, value] : document.items()) {
     const ConfigField& field = findField(name, path);
@@ -254,6 +261,8 @@ void applyFile(const std::string& path, Configuration& configuration) {
     }
   }
 }
+
+namespace {
 
 json valueOf(const ConfigField& field, const ServeConfig& config) {
   return std::visit([&](const auto member) { return json(config.*member); }, field.member);
@@ -321,7 +330,7 @@ Configuration loadConfiguration(const std::map<std::string, std::string>& flags,
                                 const Environment& environment) {
   Configuration configuration;
   if (!file.empty()) {
-    applyFile(file, configuration);
+    applyConfigFile(readFile(file), file, configuration);
   }
   for (const ConfigField& field : configFields()) {
     if (const auto value = environment(field.variable())) {
@@ -357,7 +366,11 @@ std::string printConfiguration(const Configuration& configuration) {
 }
 
 bool isLoopback(const std::string& host) {
-  return host == "localhost" || host == "::1" || host == "[::1]" || host.rfind("127.", 0) == 0;
+  // A number, not a beginning: "127.example.org" is a name like any other.
+  in_addr address{};
+  const bool is_number = ::inet_pton(AF_INET, host.c_str(), &address) == 1;
+  return host == "localhost" || host == "::1" || host == "[::1]" ||
+         (is_number && (ntohl(address.s_addr) >> 24U) == 127);
 }
 
 }  // namespace gaitmill

@@ -84,11 +84,15 @@ struct Configuration {
 /// @param flags  by field name
 /// @param file   path of a JSON object; empty = none
 /// @throws Error kConfig naming file or variable and the field, with the nearest name for an
-/// unknown
-///         one; kFileNotFound
+///         unknown one; kFileNotFound
 Configuration loadConfiguration(const std::map<std::string, std::string>& flags,
                                 const std::string& file,
                                 const Environment& environment);
+
+/// Sets what the text of a configuration file says. @throws Error kConfig as loadConfiguration
+void applyConfigFile(const std::string& text,
+                     const std::string& path,
+                     Configuration& configuration);
 
 /// Sets one field from text. @throws Error kConfig naming what is allowed
 void setConfigField(const ConfigField& field, const std::string& text, ServeConfig& config);

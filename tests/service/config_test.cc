@@ -84,6 +84,10 @@ TEST(Configuration, WrongValuesAreRefusedWithWhatIsAllowed) {
                 .where()
                 .line,
             2);
+  Configuration untouched;
+  EXPECT_EQ(
+      catchError([&] { applyConfigFile(R"({"lease_s": 1e999})", "c.json", untouched); }).code(),
+      ErrorCode::kConfig);
   EXPECT_EQ(catchError([] {
               loadConfiguration({}, "", makeEnvironment({{"GAITMILL_WORKERS", "many"}}));
             }).context(),
@@ -103,7 +107,8 @@ TEST(Configuration, OnlyLoopbackAddressesAreLoopback) {
   for (const char* host : {"127.0.0.1", "127.9.9.9", "localhost", "::1"}) {
     EXPECT_TRUE(isLoopback(host)) << host;
   }
-  for (const char* host : {"0.0.0.0", "192.168.0.1", "::", "example.org", ""}) {
+  for (const char* host :
+       {"0.0.0.0", "192.168.0.1", "::", "example.org", "127.example.org", "127.1.1.1.org", ""}) {
     EXPECT_FALSE(isLoopback(host)) << host;
   }
 }
