@@ -127,6 +127,7 @@ void perform(ChildChannel& channel, const Assignment& assignment) {
     channel.send(makeFrame(Message::kProgress, {"so", packDouble(0.1)}));
     std::abort();
   } else if (task == "segfault") {
+    std::signal(SIGSEGV, SIG_DFL);  // sanitizers put a handler of their own there
     std::raise(SIGSEGV);
   } else if (task == "exit") {
     std::_Exit(3);
