@@ -3,9 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
-#include "service/source_hash.h"
+#include "core/pipeline/pipeline.h"
 #include "service/storage/sha256.h"
-#include "service/version.h"
 
 namespace gaitmill {
 
@@ -30,8 +29,7 @@ std::string calcProvenance(const Provenance& provenance) {
 }
 
 const std::string& sourceVersion() {
-  static const std::string version =
-      std::string("gaitmill ") + kVersion + " " + std::string(kCoreSourceHash).substr(0, 16);
+  static const std::string version = "gaitmill " + codeVersion();
   return version;
 }
 

@@ -6,6 +6,7 @@
 #include "core/pipeline/checkpoint.h"
 #include "core/pipeline/job.h"
 #include "core/pipeline/settings.h"
+#include "core/pipeline/source_hash.h"
 
 namespace gaitmill {
 
@@ -101,8 +102,10 @@ PipelineResult Pipeline::run(const TrialInput& input,
   return result;
 }
 
-const char* codeVersion() {
-  return GAITMILL_VERSION;
+const std::string& codeVersion() {
+  static const std::string version =
+      std::string(GAITMILL_VERSION) + " " + std::string(kCoreSourceHash).substr(0, 16);
+  return version;
 }
 
 }  // namespace gaitmill

@@ -115,7 +115,8 @@ class Pipeline {
   std::string models_folder_;
 };
 
-/// Version of the code that computes, "0.1.0": part of the provenance of every result.
-const char* codeVersion();
+/// The code that computes, "0.1.0 81c4…": the version, and 16 hex digits of the hash over the core's
+/// sources. Part of the provenance of every result; checkpoints of other code are not gone on from.
+const std::string& codeVersion();
 
 }  // namespace gaitmill

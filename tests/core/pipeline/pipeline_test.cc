@@ -280,5 +280,15 @@ TEST(PipelineTest, ForceFilterChangesMomentsOnlyLittle) {
   EXPECT_LT(difference, 0.25 * plain.values.col(hip).cwiseAbs().maxCoeff());
 }
 
+// A rebuild with other formulas under the same version number is another code.
+TEST(CodeVersion, NamesVersionAndSources) {
+  const std::string& version = codeVersion();
+  const std::size_t space = version.find(' ');
+  ASSERT_NE(space, std::string::npos) << version;
+  EXPECT_EQ(version.substr(0, space).find_first_not_of("0123456789."), std::string::npos);
+  EXPECT_EQ(version.size() - space - 1, 16U);
+  EXPECT_EQ(version.substr(space + 1).find_first_not_of("0123456789abcdef"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace gaitmill

@@ -9,7 +9,7 @@ foreach(source ${sources})
 endforeach()
 string(SHA256 total "${lines}")
 file(WRITE ${OUTPUT}
-  "#include \"service/source_hash.h\"\n\n"
+  "#include \"core/pipeline/source_hash.h\"\n\n"
   "namespace gaitmill {\n\n"
   "const char* const kCoreSourceHash = \"${total}\";\n\n"
   "}  // namespace gaitmill\n")
