@@ -60,6 +60,8 @@ std::string findUsualPlace(ErrorCode code) {
       {ErrorCode::kSettingsNotFound, "name"},
       {ErrorCode::kKeyNotFound, "id"},
       {ErrorCode::kResultNotFound, "name"},
+      {ErrorCode::kFigureNotFound, "name"},
+      {ErrorCode::kImageSize, "width"},
       {ErrorCode::kResultNotReady, "name"},
       {ErrorCode::kJobState, "state"},
   };
@@ -136,6 +138,7 @@ int httpStatus(ErrorCode code) {
     case ErrorCode::kSettingsNotFound:
     case ErrorCode::kKeyNotFound:
     case ErrorCode::kResultNotFound:
+    case ErrorCode::kFigureNotFound:
       return 404;
     case ErrorCode::kRequestMethod:
       return 405;
@@ -163,6 +166,8 @@ int httpStatus(ErrorCode code) {
       return 416;
     case ErrorCode::kRequestHeadersTooLarge:
       return 431;
+    case ErrorCode::kImageSize:
+    case ErrorCode::kMeshFormat:
     case ErrorCode::kFileEmpty:
     case ErrorCode::kFileNotTheData:
     case ErrorCode::kFileFormat:
@@ -222,6 +227,7 @@ int httpStatus(ErrorCode code) {
     case ErrorCode::kStorageVersion:
     case ErrorCode::kStorageInUse:
     case ErrorCode::kServicePort:
+    case ErrorCode::kRender:
     case ErrorCode::kInternal:
       return 500;
     case ErrorCode::kRequestBusy:

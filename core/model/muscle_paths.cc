@@ -243,6 +243,7 @@ struct MusclePaths::Impl {
   void wrapOnce(const Path& path, int w);
   void wrapToConvergence(const Path& path);
   void sumPath(const ModelState& state, const Path& path, int muscle);
+  void traceArc(const Path& path, int first, double step, std::vector<PathVertex>& vertices) const;
 
   const Model& model;
   std::vector<Path> paths;
@@ -379,6 +380,36 @@ void MusclePaths::Impl::calcPath(const ModelState& state, std::size_t muscle) {
   sumPath(state, path, static_cast<int>(muscle));
 }
 
+/// The points strictly between node `first` and the next one, which lie on one cylinder: on the
+/// helix, so that equal turns are equal steps along the axis.
+void MusclePaths::Impl::traceArc(const Path& path,
+                                 int first,
+                                 double step,
+                                 std::vector<PathVertex>& vertices) const {
+  const Node& node = nodes[first];
+  const auto w = static_cast<std::size_t>(node.wrap);
+  const Vector3d r1 = placed[w].toLocal(node.p_G);
+  const Vector3d r2 = placed[w].toLocal(nodes[first + 1].p_G);
+  const double radius = path.wraps[w].cylinder.radius;
+  const double rise = r2.z() - r1.z();
+  const double around = std::sqrt(std::max(0.0, node.surface * node.surface - rise * rise));
+  const double turn = radius > 0 ? around / radius : 0.0;
+  // The length tells how far the path turns, the end point which way.
+  const Eigen::Rotation2Dd forth(turn);
+  const Eigen::Vector2d start = r1.head<2>();
+  const Eigen::Vector2d end = r2.head<2>();
+  const bool is_forth =
+      (forth * start - end).squaredNorm() <= (forth.inverse() * start - end).squaredNorm();
+  const int chords = static_cast<int>(std::ceil(turn / step));
+  for (int i = 1; i < chords; ++i) {
+    const double share = static_cast<double>(i) / chords;
+    Vector3d local;
+    local << Eigen::Rotation2Dd(is_forth ? share * turn : -share * turn) * start,
+        r1.z() + share * rise;
+    vertices.push_back({placed[w].X_GW * local, path.wraps[w].body});
+  }
+}
+
 MusclePaths::MusclePaths(const Model& model) : impl_(std::make_unique<Impl>(model)) {}
 MusclePaths::~MusclePaths() = default;
 MusclePaths::MusclePaths(MusclePaths&&) noexcept = default;
@@ -409,6 +440,23 @@ void MusclePaths::calcSpeeds(const Eigen::Ref<const Eigen::VectorXd>& u,
 
 int MusclePaths::findWrapCount(MuscleIndex muscle) const {
   return impl_->wrap_counts[static_cast<std::size_t>(muscle.value())];
+}
+
+void MusclePaths::tracePath(const ModelState& state,
+                            MuscleIndex muscle,
+                            double arc_step,
+                            std::vector<PathVertex>& vertices) {
+  const auto index = static_cast<std::size_t>(muscle.value());
+  impl_->calcPath(state, index);
+  const Path& path = impl_->paths[index];
+  const NodeList& nodes = impl_->nodes;
+  vertices.clear();
+  for (int i = 0; i < nodes.count; ++i) {
+    vertices.push_back({nodes[i].p_G, path.bodies[static_cast<std::size_t>(nodes[i].slot)]});
+    if (i + 1 < nodes.count && nodes[i].wrap >= 0 && nodes[i].wrap == nodes[i + 1].wrap) {
+      impl_->traceArc(path, i, arc_step, vertices);
+    }
+  }
 }
 
 }  // namespace gaitmill

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -8,6 +9,13 @@
 #include "core/model/model.h"
 
 namespace gaitmill {
+
+/// A point that a path runs through. Between two vertices the path is straight.
+struct PathVertex {
+  Eigen::Vector3d p_G = Eigen::Vector3d::Zero();
+  BodyIndex
+      body;  ///< that the tendon touches here: of a path point, or of the cylinder wrapped over
+};
 
 /// Lengths and moment arms of all muscle paths at once, wrapped over cylinders as true geodesics
 /// (spec/path.md, exact mode: closed form per cylinder, several cylinders iterated to convergence).
@@ -36,6 +44,14 @@ class MusclePaths {
 
   /// Number of cylinders that the path touched in the last calc(): changes mark kinks of dl/dt.
   int findWrapCount(MuscleIndex muscle) const;
+
+  /// One path from origin to insertion at the pose of `state`, as calc() finds it, its arcs over
+  /// cylinders as chords. A tension along the path pulls each vertex's body towards its neighbours.
+  /// @param arc_step  largest turn between two vertices of an arc [rad] > 0
+  void tracePath(const ModelState& state,
+                 MuscleIndex muscle,
+                 double arc_step,
+                 std::vector<PathVertex>& vertices);
 
  private:
   struct Impl;

@@ -242,6 +242,35 @@ TEST_F(MusclePathsTest, AnswerDoesNotDependOnThePoseBefore) {
   EXPECT_EQ((calcLengths(q) - first).cwiseAbs().maxCoeff(), 0.0);
 }
 
+// Fine chords add up to the path's length, and tension along them has the path's moment arms.
+TEST_F(MusclePathsTest, TracedPathHasTheLengthAndTheMomentArmsOfThePath) {
+  std::vector<PathVertex> vertices;
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    calcLengths(makeGaitLikePose(model_, seed));
+    const Eigen::VectorXd lengths = paths_.lengths();
+    const RowMatrix arms = paths_.momentArms();
+    for (int m = 0; m < model_.muscleCount(); ++m) {
+      SCOPED_TRACE(model_.spec().muscles[static_cast<std::size_t>(m)].name);
+      paths_.tracePath(state_, MuscleIndex(m), 1e-3, vertices);
+      double length = 0;
+      Eigen::VectorXd generalized = Eigen::VectorXd::Zero(model_.coordinateCount());
+      for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
+        const Eigen::Vector3d d = vertices[i + 1].p_G - vertices[i].p_G;
+        length += d.norm();
+        const Eigen::Vector3d pull = d.normalized();
+        Vector6 wrench;
+        wrench << vertices[i].p_G.cross(pull), pull;
+        if (vertices[i].body != vertices[i + 1].body) {
+          state_.addWrench({vertices[i].body, wrench}, generalized);
+          state_.addWrench({vertices[i + 1].body, -wrench}, generalized);
+        }
+      }
+      EXPECT_NEAR(length, lengths[m], 1e-6 * lengths[m]);
+      EXPECT_LT((generalized.transpose() - arms.row(m)).cwiseAbs().maxCoeff(), 1e-9);
+    }
+  }
+}
+
 TEST_F(MusclePathsTest, SpeedIsTheChangeOfLengthInTime) {
   const Eigen::VectorXd q = makeGaitLikePose(model_, 6);
   Eigen::VectorXd u(model_.coordinateCount());
