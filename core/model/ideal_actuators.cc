@@ -44,22 +44,45 @@ IdealActuators::IdealActuators(const Model& model,
   }
 }
 
+BodyWrench IdealActuators::calcUnitWrench(std::size_t k, const ModelState& state) const {
+  const ActuatorSpec& spec = specs_[k];
+  const Pose& X_GB = state.pose(resolved_[k].body);
+  const Eigen::Vector3d direction =
+      (spec.direction_in_ground ? spec.direction : X_GB.R * spec.direction).normalized();
+  BodyWrench load{resolved_[k].body, Vector6::Zero()};
+  if (resolved_[k].kind == ActuatorSpec::Kind::kPoint) {
+    load.wrench << (X_GB * spec.point).cross(direction), direction;
+  } else {
+    load.wrench.head<3>() = direction;
+  }
+  return load;
+}
+
+void IdealActuators::addWrenches(const ModelState& state,
+                                 const Eigen::Ref<const Eigen::VectorXd>& forces,
+                                 std::vector<BodyWrench>& wrenches) const {
+  for (std::size_t k = 0; k < specs_.size(); ++k) {
+    if (resolved_[k].kind == ActuatorSpec::Kind::kCoordinate) {
+      continue;
+    }
+    BodyWrench load = calcUnitWrench(k, state);
+    load.wrench *= forces[static_cast<Eigen::Index>(k)];
+    wrenches.push_back(load);
+    if (resolved_[k].kind == ActuatorSpec::Kind::kTorque) {
+      wrenches.push_back({resolved_[k].reaction_body, -load.wrench});
+    }
+  }
+}
+
 void IdealActuators::calcColumns(const ModelState& state, Eigen::Ref<Eigen::MatrixXd> columns) {
   for (std::size_t k = 0; k < specs_.size(); ++k) {
-    const ActuatorSpec& spec = specs_[k];
     const Resolved& resolved = resolved_[k];
     tau_.setZero();
     if (resolved.kind == ActuatorSpec::Kind::kCoordinate) {
       tau_[resolved.coordinate.value()] = 1;
     } else {
-      const Pose& X_GB = state.pose(resolved.body);
-      const Eigen::Vector3d direction =
-          (spec.direction_in_ground ? spec.direction : X_GB.R * spec.direction).normalized();
-      BodyWrench load{resolved.body, Vector6::Zero()};
-      if (resolved.kind == ActuatorSpec::Kind::kPoint) {
-        load.wrench << (X_GB * spec.point).cross(direction), direction;
-      } else {
-        load.wrench.head<3>() = direction;
+      const BodyWrench load = calcUnitWrench(k, state);
+      if (resolved.kind == ActuatorSpec::Kind::kTorque) {
         state.addWrench({resolved.reaction_body, -load.wrench}, tau_);
       }
       state.addWrench(load, tau_);

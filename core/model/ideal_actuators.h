@@ -29,6 +29,12 @@ class IdealActuators {
   /// (free.count() x count()). Zero for an actuator on a locked coordinate. Does not allocate.
   void calcColumns(const ModelState& state, Eigen::Ref<Eigen::MatrixXd> columns);
 
+  /// Appends what the point and torque actuators put on bodies at the given forces (count())
+  /// [N|N.m]. Those on coordinates act across joints and add nothing.
+  void addWrenches(const ModelState& state,
+                   const Eigen::Ref<const Eigen::VectorXd>& forces,
+                   std::vector<BodyWrench>& wrenches) const;
+
  private:
   struct Resolved {
     ActuatorSpec::Kind kind;
@@ -36,6 +42,9 @@ class IdealActuators {
     BodyIndex body;
     BodyIndex reaction_body;
   };
+  /// Wrench of unit force on the actuator's body.
+  BodyWrench calcUnitWrench(std::size_t k, const ModelState& state) const;
+
   const FreeCoordinates& free_;
   std::vector<ActuatorSpec> specs_;
   std::vector<Resolved> resolved_;

@@ -63,6 +63,23 @@ SpatialInertia calcSpatialInertia(const BodySpec& body, const Pose& X_GB) {
   return result;
 }
 
+/// Rate of change of the momentum of one body: angular about the ground origin, linear.
+/// @param w             angular velocity [rad/s]
+/// @param acceleration  angular, and of the body's origin
+Vector6 calcMomentumRate(const BodySpec& body,
+                         const Pose& X_GB,
+                         const Eigen::Vector3d& w,
+                         const Vector6& acceleration) {
+  const Eigen::Vector3d alpha = acceleration.head<3>();
+  const Eigen::Vector3d r = X_GB.R * body.mass_center;
+  const Eigen::Vector3d a = acceleration.tail<3>() + alpha.cross(r) + w.cross(w.cross(r));
+  const Eigen::Matrix3d I = X_GB.R * makeInertia(body.inertia) * X_GB.R.transpose();
+  Vector6 rate;
+  rate.tail<3>() = body.mass * a;
+  rate.head<3>() = I * alpha + w.cross(I * w) + (X_GB.p + r).cross(body.mass * a);
+  return rate;
+}
+
 }  // namespace
 
 struct Model::Impl {
@@ -178,7 +195,8 @@ struct ModelState::Impl {
         poses(static_cast<std::size_t>(m.bodyCount())),
         screws(6, m.coordinateCount()),
         subtree_inertia(static_cast<std::size_t>(m.bodyCount())),
-        subtree_wrench(6, m.bodyCount()) {}
+        subtree_wrench(6, m.bodyCount()),
+        accelerations(6, m.bodyCount()) {}
 
   const Model& model;
   std::unique_ptr<MultibodyTree::State> tree_state;
@@ -189,6 +207,23 @@ struct ModelState::Impl {
   Pose ground;
   mutable std::vector<SpatialInertia> subtree_inertia;
   Matrix6X subtree_wrench;
+  Matrix6X accelerations;
+
+  /// Sets subtree_wrench to what gravity and external loads put on each body alone.
+  void loadBodies(const std::vector<BodyWrench>& external) {
+    const ModelSpec& spec = model.spec();
+    for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+      const Eigen::Vector3d weight = spec.bodies[b].mass * spec.gravity;
+      auto wrench = subtree_wrench.col(static_cast<int>(b));
+      wrench.head<3>() = (poses[b] * spec.bodies[b].mass_center).cross(weight);
+      wrench.tail<3>() = weight;
+    }
+    for (const BodyWrench& load : external) {
+      if (load.body != kGround) {
+        subtree_wrench.col(load.body.value()) += load.wrench;
+      }
+    }
+  }
 
   const Topology& topology() const { return model.impl_->topology; }
 };
@@ -253,19 +288,8 @@ void ModelState::calcInverseDynamics(const Eigen::Ref<const Eigen::VectorXd>& ud
   impl_->model.impl_->tree->calcInertialForces(*impl_->tree_state, udot, tau);
 
   // Gravity and external wrenches, summed over subtrees from the tips inward, then projected.
+  impl_->loadBodies(external);
   const Topology& topology = impl_->topology();
-  const ModelSpec& spec = impl_->model.spec();
-  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    const Eigen::Vector3d weight = spec.bodies[b].mass * spec.gravity;
-    auto wrench = impl_->subtree_wrench.col(static_cast<int>(b));
-    wrench.head<3>() = (impl_->poses[b] * spec.bodies[b].mass_center).cross(weight);
-    wrench.tail<3>() = weight;
-  }
-  for (const BodyWrench& load : external) {
-    if (load.body != kGround) {
-      impl_->subtree_wrench.col(load.body.value()) += load.wrench;
-    }
-  }
   for (auto j = topology.outward.rbegin(); j != topology.outward.rend(); ++j) {
     const Topology::Joint& joint = topology.joints[static_cast<std::size_t>(*j)];
     const auto wrench = impl_->subtree_wrench.col(joint.child.value());
@@ -277,6 +301,34 @@ void ModelState::calcInverseDynamics(const Eigen::Ref<const Eigen::VectorXd>& ud
       impl_->subtree_wrench.col(joint.parent.value()) += wrench;
     }
   }
+}
+
+void ModelState::calcJointWrenches(const Eigen::Ref<const Eigen::VectorXd>& udot,
+                                   const std::vector<BodyWrench>& external,
+                                   Matrix6X& wrenches) {
+  impl_->loadBodies(external);
+  impl_->model.impl_->tree->calcAccelerations(*impl_->tree_state, udot, impl_->accelerations);
+  const ModelSpec& spec = impl_->model.spec();
+  wrenches.resize(6, impl_->model.bodyCount());
+  for (int b = 0; b < impl_->model.bodyCount(); ++b) {
+    const auto i = static_cast<std::size_t>(b);
+    const Vector6 velocity = calcBodyVelocity(BodyIndex(b));
+    wrenches.col(b) = calcMomentumRate(
+        spec.bodies[i], impl_->poses[i], velocity.head<3>(), impl_->accelerations.col(b));
+  }
+  wrenches -= impl_->subtree_wrench;
+  const Topology& topology = impl_->topology();
+  for (auto j = topology.outward.rbegin(); j != topology.outward.rend(); ++j) {
+    const Topology::Joint& joint = topology.joints[static_cast<std::size_t>(*j)];
+    if (joint.parent != kGround) {
+      wrenches.col(joint.parent.value()) += wrenches.col(joint.child.value());
+    }
+  }
+}
+
+Eigen::Vector3d ModelState::findJointCenter(int joint) const {
+  const auto j = static_cast<std::size_t>(joint);
+  return pose(impl_->topology().joints[j].child) * impl_->model.spec().joints[j].child.translation;
 }
 
 void ModelState::calcMassMatrix(Eigen::Ref<Eigen::MatrixXd> M) const {

@@ -111,6 +111,20 @@ class ModelState {
                            const std::vector<BodyWrench>& external,
                            Eigen::Ref<Eigen::VectorXd> tau);
 
+  /// Wrench that the joint inboard of each body must put on that body, (6 x n_bodies), in ground,
+  /// moment about the GROUND ORIGIN, then force: recursive Newton-Euler from the tips inward,
+  ///   W_b = d/dt momentum_b - weight_b - external_b + sum over the joints it carries W_child
+  /// Generalized forces act across joints and so belong to these wrenches; `external` holds all
+  /// other forces on bodies. screws()^T W is the generalized force of calcInverseDynamics.
+  /// Needs setMotion. Resizes `wrenches` on first use.
+  void calcJointWrenches(const Eigen::Ref<const Eigen::VectorXd>& udot,
+                         const std::vector<BodyWrench>& external,
+                         Matrix6X& wrenches);
+
+  /// Origin of a joint's frame on its child body, in ground [m]. Needs setPose.
+  /// @param joint  position in ModelSpec::joints
+  Eigen::Vector3d findJointCenter(int joint) const;
+
   /// Mass matrix, (n_coordinates x n_coordinates), both triangles. Needs setPose.
   void calcMassMatrix(Eigen::Ref<Eigen::MatrixXd> M) const;
 

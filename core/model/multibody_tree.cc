@@ -349,6 +349,14 @@ struct MultibodyTree::State::Impl {
   SimTK::Vector tau;
   SimTK::Vector no_mobility_forces;
   SimTK::Vector_<SimTK::SpatialVec> no_body_forces;
+  SimTK::Vector_<SimTK::SpatialVec> accelerations;
+
+  void setAcceleration(const std::vector<Hinge>& hinges,
+                       const Eigen::Ref<const Eigen::VectorXd>& values) {
+    for (std::size_t c = 0; c < hinges.size(); ++c) {
+      udot[hinges[c].u] = hinges[c].sign * values[static_cast<int>(c)];
+    }
+  }
 };
 
 void MultibodyTree::addJoint(Impl& impl,
@@ -453,13 +461,23 @@ void MultibodyTree::calcInertialForces(State& state,
                                        const Eigen::Ref<const Eigen::VectorXd>& udot,
                                        Eigen::Ref<Eigen::VectorXd> tau) const {
   State::Impl& work = *state.impl_;
-  for (std::size_t c = 0; c < impl_->hinges.size(); ++c) {
-    work.udot[impl_->hinges[c].u] = impl_->hinges[c].sign * udot[static_cast<int>(c)];
-  }
+  work.setAcceleration(impl_->hinges, udot);
   impl_->matter.calcResidualForceIgnoringConstraints(
       work.state, work.no_mobility_forces, work.no_body_forces, work.udot, work.tau);
   for (std::size_t c = 0; c < impl_->hinges.size(); ++c) {
     tau[static_cast<int>(c)] = impl_->hinges[c].sign * work.tau[impl_->hinges[c].u];
+  }
+}
+
+void MultibodyTree::calcAccelerations(State& state,
+                                      const Eigen::Ref<const Eigen::VectorXd>& udot,
+                                      Matrix6X& accelerations) const {
+  State::Impl& work = *state.impl_;
+  work.setAcceleration(impl_->hinges, udot);
+  impl_->matter.calcBodyAccelerationFromUDot(work.state, work.udot, work.accelerations);
+  for (std::size_t b = 0; b < impl_->mobods.size(); ++b) {
+    const SimTK::SpatialVec& A = work.accelerations[int(impl_->mobods[b])];
+    accelerations.col(static_cast<int>(b)) << toEigen(A[0]), toEigen(A[1]);
   }
 }
 

@@ -44,6 +44,11 @@ class MultibodyTree {
   void calcInertialForces(State& state,
                           const Eigen::Ref<const Eigen::VectorXd>& udot,
                           Eigen::Ref<Eigen::VectorXd> tau) const;
+  /// Accelerations of all bodies, (6 x n_bodies): angular, then of the body's origin, in ground.
+  /// Needs velocities.
+  void calcAccelerations(State& state,
+                         const Eigen::Ref<const Eigen::VectorXd>& udot,
+                         Matrix6X& accelerations) const;
 
  private:
   struct Impl;

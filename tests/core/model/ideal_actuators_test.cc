@@ -96,5 +96,35 @@ TEST(IdealActuators, RefusesTwoOfOneName) {
   }
 }
 
+// A torque between two bodies pulls both ways; what acts on a coordinate is no force on a body.
+TEST(IdealActuators, WrenchesGiveTheSameGeneralizedForcesAsTheColumns) {
+  ActuatorSpec torque;
+  torque.name = "twist";
+  torque.kind = ActuatorSpec::Kind::kTorque;
+  torque.body = "lower";
+  torque.reaction_body = "upper";
+  torque.direction = {0.6, 0, 0.8};
+  ActuatorSpec reserve;
+  reserve.name = "swing_reserve";
+  reserve.coordinate = "swing";
+  const Model model(makeRods());
+  const FreeCoordinates free(model);
+  IdealActuators actuators(model, free, {makePointForce(false), torque, reserve});
+  ModelState state(model);
+  state.setPose(Eigen::Vector2d(0.4, 0));
+  const Eigen::Vector3d forces(7, -2, 5);
+  std::vector<BodyWrench> wrenches;
+  actuators.addWrenches(state, forces, wrenches);
+  ASSERT_EQ(wrenches.size(), 3U);
+  Eigen::VectorXd tau = Eigen::VectorXd::Zero(2);
+  for (const BodyWrench& wrench : wrenches) {
+    state.addWrench(wrench, tau);
+  }
+  Eigen::MatrixXd columns(1, 3);
+  actuators.calcColumns(state, columns);
+  const double without_reserve = columns(0, 0) * forces[0] + columns(0, 1) * forces[1];
+  EXPECT_NEAR(tau[0], without_reserve, tol(1e-14));
+}
+
 }  // namespace
 }  // namespace gaitmill

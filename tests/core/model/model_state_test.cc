@@ -178,6 +178,47 @@ TEST(ModelState, MovingKneesLeaveTheEnergyErrorOfSimbodysMobilizer) {
   EXPECT_NEAR(calcEnergyDrift(readOwnModel()), 0, tol(5e-3));
 }
 
+// The part of a joint's load along the joint's own freedom is the generalized force.
+TEST(ModelState, JointWrenchesProjectToInverseDynamics) {
+  const Model model(readOwnModel());
+  ModelState state(model);
+  std::vector<BodyWrench> external = {{model.getBody("calcn_r"), Vector6::Zero()},
+                                      {model.getBody("hand_l"), Vector6::Zero()}};
+  external[0].wrench << 10, -20, 30, 50, 700, -40;
+  external[1].wrench << -3, 1, 2, 5, -9, 4;
+  Matrix6X wrenches;
+  Eigen::VectorXd tau(model.coordinateCount());
+  for (unsigned seed = 21; seed <= 23; ++seed) {
+    const Motion m = makeRandomMotion(model, seed);
+    state.setMotion(m.q, m.u);
+    state.calcInverseDynamics(m.udot, external, tau);
+    state.calcJointWrenches(m.udot, external, wrenches);
+    int c = 0;
+    for (const JointSpec& joint : model.spec().joints) {
+      const int child = model.getBody(joint.child.body).value();
+      for (std::size_t k = 0; k < joint.coordinates.size(); ++k, ++c) {
+        EXPECT_NEAR(state.screws().col(c).dot(wrenches.col(child)), tau[c], tol(1e-10) * 1e3)
+            << joint.coordinates[k].name;
+      }
+    }
+  }
+}
+
+TEST(ModelState, JointCenterIsWhereTheChildsFrameIs) {
+  const Model model(readOwnModel());
+  ModelState state(model);
+  state.setPose(makeRandomMotion(model, 4).q);
+  const auto& joints = model.spec().joints;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (joints[j].kind ==
+        JointSpec::Kind::kPin) {  // does not slide: both frames share their origin
+      const Eigen::Vector3d from_parent =
+          state.pose(model.getBody(joints[j].parent.body)) * joints[j].parent.translation;
+      EXPECT_LT((state.findJointCenter(static_cast<int>(j)) - from_parent).norm(), tol(1e-14));
+    }
+  }
+}
+
 TEST(ModelState, ScrewsGiveTheVelocityOfAnyStation) {
   const Model model(readOwnModel());
   ModelState state(model);
