@@ -23,6 +23,9 @@ struct SoResult {
   TimeSeries forces;
   /// Generalized force demanded by inverse dynamics at the free coordinates [N|N.m].
   TimeSeries demand;
+  /// Motion that the forces explain, as splined: all coordinates of the model.
+  TimeSeries pose;       ///< q [rad|m]
+  TimeSeries speed;      ///< u
   int muscle_count = 0;  ///< leading columns that are muscles
 
   std::vector<InfeasibleRow> infeasible_rows;

@@ -47,6 +47,18 @@ std::vector<int> findRows(const std::vector<double>& time, const SoOptions& opti
   return rows;
 }
 
+TimeSeries makeMotionTable(const Model& model,
+                           const char* name,
+                           const std::string& per_time,
+                           std::vector<double> time) {
+  TimeSeries table = makeTimeSeries(name, model.coordinateNames(), std::move(time));
+  for (int c = 0; c < model.coordinateCount(); ++c) {
+    const bool slides = model.motionKind(CoordinateIndex(c)) == MotionKind::kTranslational;
+    table.units.push_back((slides ? "m" : "rad") + per_time);
+  }
+  return table;
+}
+
 }  // namespace
 
 SoSolver::SoSolver(const Model& model, const SoOptions& options)
@@ -199,8 +211,10 @@ SoResult SoSolver::makeResult(std::vector<double> time) const {
     names.push_back(model_.coordinate(c).name);
     units.emplace_back(model_.motionKind(c) == MotionKind::kTranslational ? "N" : "N.m");
   }
-  result.demand = makeTimeSeries("demand", std::move(names), std::move(time));
+  result.demand = makeTimeSeries("demand", std::move(names), time);
   result.demand.units = std::move(units);
+  result.pose = makeMotionTable(model_, "pose", "", time);
+  result.speed = makeMotionTable(model_, "speed", "/s", std::move(time));
   result.iterations.assign(static_cast<std::size_t>(result.activations.rowCount()), 0);
   return result;
 }
@@ -213,6 +227,8 @@ void SoSolver::storeRow(int row,
   result.forces.values.row(row) = activations.cwiseProduct(gains_).transpose();
   result.forces.values.row(row).head(model_.muscleCount()) += passive_.transpose();
   result.demand.values.row(row) = tau_free_.transpose();
+  result.pose.values.row(row) = q_.transpose();
+  result.speed.values.row(row) = u_.transpose();
   result.iterations[static_cast<std::size_t>(row)] = report.iterations;
   Eigen::Index worst = 0;
   if (slack_.cwiseAbs().maxCoeff(&worst) > options_.infeasible_above) {
