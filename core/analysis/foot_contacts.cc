@@ -195,4 +195,25 @@ std::vector<GaitEvent> findGaitEvents(const std::vector<FootContact>& contacts) 
   return events;
 }
 
+std::vector<GaitCycle> findGaitCycles(const std::vector<GaitEvent>& events, Foot foot) {
+  std::vector<GaitCycle> cycles;
+  const GaitEvent* strike = nullptr;
+  int toe_offs = 0;
+  for (const GaitEvent& event : events) {
+    if (event.foot != foot) {
+      continue;
+    }
+    if (event.kind == GaitEvent::Kind::kToeOff) {
+      ++toe_offs;
+      continue;
+    }
+    if (strike != nullptr && toe_offs == 1) {
+      cycles.push_back({strike->time, event.time});
+    }
+    strike = &event;
+    toe_offs = 0;
+  }
+  return cycles;
+}
+
 }  // namespace gaitmill

@@ -42,4 +42,8 @@ struct GaitEvent {
 /// one plate to the next strikes once.
 std::vector<GaitEvent> findGaitEvents(const std::vector<FootContact>& contacts);
 
+/// From strike to next strike of one foot, where it leaves the ground exactly once in between: two
+/// strikes of a foot that stepped beside the plates meanwhile are no cycle.
+std::vector<GaitCycle> findGaitCycles(const std::vector<GaitEvent>& events, Foot foot);
+
 }  // namespace gaitmill

@@ -101,5 +101,21 @@ TEST(FindGaitEvents, AStepAcrossTwoPlatesIsOneStep) {
   EXPECT_EQ(events[1].time, 0.8);
 }
 
+// The third strike comes after a step beside the plates: its toe-off is missing.
+TEST(FindGaitCycles, NeedOneToeOffBetweenTwoStrikes) {
+  using Kind = GaitEvent::Kind;
+  const std::vector<GaitEvent> events = {{Kind::kFootStrike, Foot::kRight, 0.1},
+                                         {Kind::kFootStrike, Foot::kLeft, 0.6},
+                                         {Kind::kToeOff, Foot::kRight, 0.7},
+                                         {Kind::kFootStrike, Foot::kRight, 1.1},
+                                         {Kind::kToeOff, Foot::kLeft, 1.3},
+                                         {Kind::kFootStrike, Foot::kRight, 3.0}};
+  const std::vector<GaitCycle> cycles = findGaitCycles(events, Foot::kRight);
+  ASSERT_EQ(cycles.size(), 1U);
+  EXPECT_EQ(cycles[0].start, 0.1);
+  EXPECT_EQ(cycles[0].end, 1.1);
+  EXPECT_TRUE(findGaitCycles(events, Foot::kLeft).empty());
+}
+
 }  // namespace
 }  // namespace gaitmill
