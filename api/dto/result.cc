@@ -202,7 +202,22 @@ const std::vector<std::string>& tableNames() {
                                                  "residuals",
                                                  "reserves",
                                                  "marker_errors",
-                                                 "joint_reactions"};
+                                                 "measured_markers",
+                                                 "ground_reactions",
+                                                 "muscle_moments",
+                                                 "active_fiber_forces",
+                                                 "passive_fiber_forces",
+                                                 "norm_fiber_lengths",
+                                                 "norm_fiber_velocities",
+                                                 "pennation_angles",
+                                                 "fiber_active_powers",
+                                                 "fiber_passive_powers",
+                                                 "tendon_powers",
+                                                 "muscle_powers",
+                                                 "muscle_work",
+                                                 "joint_powers",
+                                                 "joint_reactions",
+                                                 "emg"};
   return names;
 }
 

@@ -15,8 +15,7 @@ enum class TableAxis { kTime, kCycle };
 enum class AngleUnit { kRadians, kDegrees };
 enum class ResultFormat { kJson, kCsv, kSto };
 
-/// "moments", "activations", "excitations", "forces", "fiber_lengths", "fiber_velocities",
-/// "kinematics", "residuals", "reserves", "marker_errors", "joint_reactions"
+/// Names of all result tables, as in PipelineResult::tables.
 const std::vector<std::string>& tableNames();
 
 /// One result that a job has so far.

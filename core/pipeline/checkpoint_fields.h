@@ -32,15 +32,9 @@ void visitFields(Archive& archive, Access<Archive, WrapCylinderSpec>& value) {
 }
 
 template <class Archive>
-void visitFields(Archive& archive, Access<Archive, MeshSpec>& value) {
-  auto& [file, scale_factors, translation, orientation] = value;
-  archive(file, scale_factors, translation, orientation);
-}
-
-template <class Archive>
 void visitFields(Archive& archive, Access<Archive, BodySpec>& value) {
-  auto& [name, mass, mass_center, inertia, wrap_cylinders, meshes] = value;
-  archive(name, mass, mass_center, inertia, wrap_cylinders, meshes);
+  auto& [name, mass, mass_center, inertia, wrap_cylinders] = value;
+  archive(name, mass, mass_center, inertia, wrap_cylinders);
 }
 
 template <class Archive>
@@ -465,6 +459,8 @@ void visitFields(Archive& archive, Access<Archive, SoResult>& value) {
   auto& [activations,
          forces,
          demand,
+         pose,
+         speed,
          muscle_count,
          infeasible_rows,
          iterations,
@@ -473,6 +469,8 @@ void visitFields(Archive& archive, Access<Archive, SoResult>& value) {
   archive(activations,
           forces,
           demand,
+          pose,
+          speed,
           muscle_count,
           infeasible_rows,
           iterations,

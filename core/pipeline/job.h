@@ -3,15 +3,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/analysis/acceptance.h"
-#include "core/analysis/joint_reserves.h"
-#include "core/analysis/marker_statistics.h"
-#include "core/analysis/muscle_limits.h"
+#include "core/analysis/foot_contacts.h"
+#include "core/analysis/muscle_analysis.h"
+#include "core/analysis/power_balance.h"
 #include "core/analysis/quality_check.h"
 #include "core/cmc/cmc_result.h"
 #include "core/data/ground_reaction.h"
@@ -28,6 +27,15 @@
 #include "core/so/so_result.h"
 
 namespace gaitmill {
+
+/// What follows from muscle forces, of CMC where it ran, else of static optimization.
+struct JobAnalysis {
+  MuscleAnalysis muscles;
+  TimeSeries joint_reactions;
+  TimeSeries muscle_work;
+  /// Over the gait cycle where the rows cover one, else over all rows.
+  WorkBalance balance;
+};
 
 /// One run of the recipe: settings, input, and what each stage left behind. Private to
 /// core/pipeline. Stages fill their own member and never touch an earlier one; a member is empty
@@ -56,6 +64,7 @@ struct Job {
   std::optional<IdResult> id;
   std::optional<SoResult> so;
   std::optional<CmcResult> cmc;
+  std::optional<JobAnalysis> analysis;  ///< not in checkpoints: follows from the stage's result
 
   std::array<double, kStageCount> seconds{};  ///< processor time of each stage, 0 = not run
   std::vector<std::string> warnings;
@@ -86,12 +95,25 @@ Job openJob(const TrialInput& input,
 /// @throws Error with the stage in `where`
 void runStage(Stage stage, Job& job);
 
-/// Makes a stage's result what later stages work on: models, motion.
+/// Makes a stage's result what later stages work on: models, motion. Analyses muscle forces.
 void takeOver(Stage stage, Job& job);
 
 /// The gait cycle of the right foot: as set, else the first two strikes in the forces; empty if
 /// there are none.
 std::optional<GaitCycle> findGaitCycle(const Job& job);
+/// Strikes and toe-offs in the forces, and the cycles of one foot that the motion covers.
+std::vector<GaitEvent> findGaitEvents(const Job& job);
+std::vector<GaitCycle> findGaitCycles(const Job& job, Foot foot);
+
+/// Columns of makeGroundReactionTable, over the time of the kinematics.
+TimeSeries makeGroundReactions(const Job& job);
+/// <marker>_x, _y, _z [m] in ground of the markers that IK weighs, on the rows of IK.
+TimeSeries makeMeasuredMarkers(const Job& job);
+
+/// Fills job.analysis once the stage that settles the muscle forces is taken over.
+void analyze(Stage stage, Job& job);
+/// Tables beyond what the stage itself computed.
+void addAnalysis(Stage stage, const Job& job, StageOutcome& outcome);
 
 /// How far to trust a finished job; members of stages that did not run are empty.
 struct JobQuality {
@@ -100,28 +122,8 @@ struct JobQuality {
   std::vector<MomentComparison> moments;      ///< muscles against inverse dynamics, right leg
   std::vector<ActuatorStatistics> residuals;  ///< of CMC
   std::vector<ActuatorStatistics> reserves;
-  std::vector<JointReserve> joint_reserves;       ///< empty without inverse dynamics
-  std::vector<Saturation> saturations;            ///< of CMC, one per muscle
-  std::vector<FiberRange> fibers;                 ///< of CMC, one per muscle
-  std::vector<MarkerStatistics> markers;          ///< of IK
-  std::vector<ActuatorStatistics> rra_residuals;  ///< of the last pass
-  std::vector<ActuatorStatistics> so_residuals;
-  std::vector<ActuatorStatistics> so_reserves;
-  std::vector<JointReserve> so_joint_reserves;
-  std::vector<Saturation> so_saturations;
-  /// Largest vertical ground reaction of all feet together [N]; NaN without forces.
-  double peak_reaction = std::numeric_limits<double>::quiet_NaN();
-  /// Mean height of the whole body's mass centre over the CMC run [m].
-  double mass_center_height = std::numeric_limits<double>::quiet_NaN();
   std::vector<QualityCheck> checks;
 };
-
-/// Lengths between which fibers give active force [l0M] (Zajac 1989, Crit Rev Biomed Eng 17:359).
-inline constexpr double kShortestFiber = 0.5;
-inline constexpr double kLongestFiber = 1.5;
-/// From this control on a muscle counts as fully excited.
-inline constexpr double kFullExcitation = 0.99;
-
 /// Holds the figures of a job against what the field takes for trustworthy.
 void addChecks(const Job& job, JobQuality& quality);
 JobQuality calcQuality(const Job& job);

@@ -202,38 +202,18 @@ void addStage(Stage stage, const Job& job, StageOutcome& outcome) {
 
 }  // namespace
 
-std::optional<GaitCycle> findGaitCycle(const Job& job) {
-  if (job.settings.gait_cycle) {
-    return GaitCycle{job.settings.gait_cycle->start, job.settings.gait_cycle->end};
-  }
-  std::vector<double> strikes;
-  for (const ExternalForce& force : job.reaction.forces) {
-    if (force.body != job.settings.forces.reading.right_body) {
-      continue;
-    }
-    for (const Contact& contact : findContacts(job.reaction.time, force.force.row(1).transpose())) {
-      if (contact.has_strike) {
-        strikes.push_back(contact.strike);
-      }
-    }
-  }
-  std::sort(strikes.begin(), strikes.end());
-  if (strikes.size() < 2) {
-    return std::nullopt;
-  }
-  return GaitCycle{strikes[0], strikes[1]};
-}
-
 StageOutcome makeOutcome(Stage stage, const Job& job) {
   StageOutcome outcome;
   outcome.stage = stage;
   addStage(stage, job, outcome);
+  addAnalysis(stage, job, outcome);
   const std::optional<GaitCycle> cycle = findGaitCycle(job);
   for (auto entry = outcome.tables.begin(); entry != outcome.tables.end();) {
     auto& [name, table] = *entry;
     table.name = name;
     check(table.units.size() == table.labels.size(), "a result has columns without unit");
-    if (cycle && table.rowCount() > 1 && table.columnCount() > 0) {
+    // Work is one row per cycle already.
+    if (cycle && table.rowCount() > 1 && table.columnCount() > 0 && name != "muscle_work") {
       outcome.cycle_tables[name] = normalizeToCycle(table, *cycle);
     }
     entry = table.labels.empty() ? outcome.tables.erase(entry) : std::next(entry);

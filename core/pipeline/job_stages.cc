@@ -273,6 +273,7 @@ void takeOver(Stage stage, Job& job) {
   if (settlesModel(stage, job.settings)) {
     adjustMuscles(job);
   }
+  analyze(stage, job);
 }
 
 void runStage(Stage stage, Job& job) {

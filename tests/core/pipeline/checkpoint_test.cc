@@ -176,20 +176,33 @@ TEST(StageOutcome, TheLastOneOfEachNameIsTheResult) {
 }
 
 TEST(StageOutcome, HoldsWhatTheStageMakes) {
-  const std::vector<std::vector<std::string>> expected = {{},
-                                                          {"kinematics", "marker_errors"},
-                                                          {"kinematics", "residuals"},
-                                                          {"moments"},
-                                                          {"activations", "forces", "reserves"},
-                                                          {"activations",
-                                                           "excitations",
-                                                           "fiber_lengths",
-                                                           "fiber_velocities",
-                                                           "forces",
-                                                           "kinematics",
-                                                           "moments",
-                                                           "reserves",
-                                                           "residuals"}};
+  const std::vector<std::vector<std::string>> expected = {
+      {},
+      {"kinematics", "marker_errors", "measured_markers"},
+      {"ground_reactions", "kinematics", "residuals"},
+      {"joint_powers", "moments"},
+      {"activations", "forces", "reserves"},
+      {"activations",
+       "active_fiber_forces",
+       "excitations",
+       "fiber_active_powers",
+       "fiber_lengths",
+       "fiber_passive_powers",
+       "fiber_velocities",
+       "forces",
+       "joint_reactions",
+       "kinematics",
+       "moments",
+       "muscle_moments",
+       "muscle_powers",
+       "muscle_work",
+       "norm_fiber_lengths",
+       "norm_fiber_velocities",
+       "passive_fiber_forces",
+       "pennation_angles",
+       "reserves",
+       "residuals",
+       "tendon_powers"}};
   const ObservedRun& whole = observeWholeSample();
   ASSERT_EQ(whole.outcomes.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
