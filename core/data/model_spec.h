@@ -38,6 +38,14 @@ struct WrapCylinderSpec {
   bool active = true;
 };
 
+/// A surface drawn with a body; no influence on the mechanics.
+struct MeshSpec {
+  std::string file;  ///< name as in the document, for instance "r_femur.vtp"
+  Eigen::Vector3d scale_factors = Eigen::Vector3d::Ones();  ///< along the axes of the mesh
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();    ///< of its frame on the body
+  Eigen::Vector3d orientation = Eigen::Vector3d::Zero();    ///< body-fixed x-y-z angles
+};
+
 struct BodySpec {
   std::string name;
   double mass = 0;  ///< [kg]
@@ -45,6 +53,7 @@ struct BodySpec {
   /// About the mass centre, body axes: xx yy zz xy xz yz [kg m^2].
   std::array<double, 6> inertia = {0, 0, 0, 0, 0, 0};
   std::vector<WrapCylinderSpec> wrap_cylinders;
+  std::vector<MeshSpec> meshes = {};
 };
 
 /// A joint's frame on a body: X = [Rx(a) Ry(b) Rz(c) | translation].

@@ -36,6 +36,8 @@ struct Series {
   std::vector<double> y;
   std::vector<double> low;              ///< of a band, one per x
   std::vector<std::string> categories;  ///< of bars, in place of x
+  /// Of overlays: the n-th job, which gets the n-th colour, while the dash stays the role's.
+  int group = -1;
 };
 
 /// A straight line across a panel: a threshold, toe-off.

@@ -17,15 +17,20 @@ Eigen::Vector3d calcAngles(const Eigen::Matrix3d& R) {
   return {std::atan2(-R(1, 2), R(2, 2)), b, std::atan2(-R(0, 1), R(0, 0))};
 }
 
-FrameSpec compose(const FrameSpec& base, const Eigen::Vector3d& p, const Eigen::Vector3d& angles) {
+}  // namespace
+
+FrameSpec composeFrames(const FrameSpec& base,
+                        const Eigen::Vector3d& translation,
+                        const Eigen::Vector3d& orientation) {
   if (base.translation.isZero(0) && base.orientation.isZero(0)) {
-    return {base.body, p, angles};
+    return {base.body, translation, orientation};
+  }
+  if (translation.isZero(0) && orientation.isZero(0)) {
+    return base;
   }
   const Eigen::Matrix3d R = makeRotation(base.orientation);
-  return {base.body, base.translation + R * p, calcAngles(R * makeRotation(angles))};
+  return {base.body, base.translation + R * translation, calcAngles(R * makeRotation(orientation))};
 }
-
-}  // namespace
 
 std::string lastComponent(const std::string& path) {
   const std::size_t slash = path.find_last_of('/');
@@ -62,7 +67,7 @@ FrameSpec OsimFrames::resolve(const OsimElement& socket,
                               const std::string& owner,
                               int depth) const {
   const std::string path = socket.ownText();
-  const std::string name = lastComponent(path);
+  const std::string name = path == ".." ? owner : lastComponent(path);
   if (const Key* key = findKey(path, owner)) {
     if (depth > kMaximumFrameDepth) {
       socket.fail(ErrorCode::kModelTopology, "offset frames refer to each other in a ring");
@@ -96,9 +101,9 @@ FrameSpec OsimFrames::makeFrame(const Key& key, int depth) const {
   if (!parent) {
     frame.fail(ErrorCode::kModelElement, frame.describe() + " has no <socket_parent>");
   }
-  return compose(resolve(parent, key.first, depth + 1),
-                 frame.vector3("translation", Eigen::Vector3d::Zero()),
-                 frame.vector3("orientation", Eigen::Vector3d::Zero()));
+  return composeFrames(resolve(parent, key.first, depth + 1),
+                       frame.vector3("translation", Eigen::Vector3d::Zero()),
+                       frame.vector3("orientation", Eigen::Vector3d::Zero()));
 }
 
 PathPointSpec OsimFrames::resolvePoint(const OsimElement& socket,

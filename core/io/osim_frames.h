@@ -24,6 +24,10 @@ class OsimFrames {
   /// Frame that `socket` names, seen from the component `owner` ("" = none), with its offset on its
   /// base body. @throws Error kModelReference
   FrameSpec resolve(const OsimElement& socket, const std::string& owner) const;
+  /// The frame that `owner` holds under `name`. @throws Error kModelReference, kModelTopology
+  FrameSpec resolveOwn(const std::string& owner, const std::string& name) const {
+    return makeFrame({owner, name}, 0);
+  }
   /// The same for a point: body and location in it.
   PathPointSpec resolvePoint(const OsimElement& socket, const Eigen::Vector3d& location) const;
   /// Body named by plain name or path. @throws Error kModelReference
@@ -46,5 +50,10 @@ std::string lastComponent(const std::string& path);
 
 /// Rotation of body-fixed x-y-z angles: Rx(a) Ry(b) Rz(c).
 Eigen::Matrix3d makeRotation(const Eigen::Vector3d& angles);
+
+/// The frame at `translation` and `orientation` (angles as above) in the frame `base`.
+FrameSpec composeFrames(const FrameSpec& base,
+                        const Eigen::Vector3d& translation,
+                        const Eigen::Vector3d& orientation);
 
 }  // namespace gaitmill

@@ -9,6 +9,7 @@
 #include "core/io/osim_element.h"
 #include "core/io/osim_forces.h"
 #include "core/io/osim_frames.h"
+#include "core/io/osim_geometry.h"
 #include "core/io/osim_joints.h"
 
 namespace gaitmill {
@@ -17,7 +18,8 @@ namespace {
 
 using Vector3d = Eigen::Vector3d;
 
-constexpr std::size_t kMaximumWraps = 2000;  // the full-body model has 40
+constexpr std::size_t kMaximumWraps = 2000;   // the full-body model has 40
+constexpr std::size_t kMaximumMeshes = 2000;  // the full-body model has 81
 
 bool isContactForce(const OsimElement& force) {
   constexpr std::array<std::string_view, 3> kTypes = {
@@ -47,6 +49,8 @@ class ModelReader {
   void readHeader();
   void readBodies();
   void readBody(const OsimElement& element);
+  void readMeshes(const OsimElement& element, std::size_t body);
+  void addMesh(const OsimElement& owner, BodySpec& body, MeshSpec mesh);
   void readJoints();
   void readConstraints();
   void readMarkers();
@@ -63,6 +67,7 @@ class ModelReader {
   OsimFrames frames_;
   std::vector<OsimElement> body_elements_;
   std::vector<std::string> wrap_objects_;
+  std::size_t mesh_count_ = 0;
   std::set<std::string> force_names_;
 };
 
@@ -147,6 +152,34 @@ void ModelReader::readBody(const OsimElement& element) {
   spec_.bodies.push_back(std::move(body));
 }
 
+void ModelReader::addMesh(const OsimElement& owner, BodySpec& body, MeshSpec mesh) {
+  if (++mesh_count_ > kMaximumMeshes) {
+    owner.fail(ErrorCode::kModelUnsupported,
+               "the model has more than " + std::to_string(kMaximumMeshes) + " meshes");
+  }
+  body.meshes.push_back(std::move(mesh));
+}
+
+// The offset frames that a body holds may carry meshes, too; such a frame may sit on another body.
+void ModelReader::readMeshes(const OsimElement& element, std::size_t body) {
+  for (MeshSpec& mesh : gaitmill::readMeshes(element)) {
+    addMesh(element, spec_.bodies[body], std::move(mesh));
+  }
+  const std::string& owner = spec_.bodies[body].name;
+  for (const OsimElement& frame : element.property("components").children()) {
+    for (MeshSpec& mesh : gaitmill::readMeshes(frame)) {
+      const FrameSpec place = composeFrames(
+          frames_.resolveOwn(owner, frame.requireName()), mesh.translation, mesh.orientation);
+      const int base = spec_.findBody(place.body);
+      if (base >= 0) {
+        mesh.translation = place.translation;
+        mesh.orientation = place.orientation;
+        addMesh(frame, spec_.bodies[static_cast<std::size_t>(base)], std::move(mesh));
+      }
+    }
+  }
+}
+
 void ModelReader::readBodies() {
   if (const OsimElement ground = model_.property("Ground")) {
     addWraps(ground, spec_.ground_wrap_cylinders);
@@ -159,6 +192,9 @@ void ModelReader::readBodies() {
   }
   if (spec_.bodies.empty()) {
     model_.fail(ErrorCode::kModelElement, "the model has no bodies");
+  }
+  for (std::size_t body = 0; body < body_elements_.size(); ++body) {
+    readMeshes(body_elements_[body], body);
   }
 }
 

@@ -18,7 +18,8 @@ namespace gaitmill {
 /// or conditional path points, wrap objects other than cylinders, further forces and constraints,
 /// prescribed coordinates. Two things are left out with a warning: forces that the document itself
 /// switches off, and contact with the floor, whose place the measured ground reaction takes.
-/// Meshes, colours, probes and controllers are ignored.
+/// Of the geometry the visible meshes of bodies are read, as names of files and scale factors;
+/// other shapes, colours, ground's geometry, probes and controllers are ignored.
 ///
 /// @param file_name  for error messages only; nothing is opened
 /// @param warnings   if given, one sentence per thing left out is appended

@@ -127,10 +127,60 @@ void writeWraps(XmlText& xml, const std::vector<WrapCylinderSpec>& wraps) {
   xml.closeSet();
 }
 
+bool isOnBody(const MeshSpec& mesh) {
+  return mesh.translation.isZero(0) && mesh.orientation.isZero(0);
+}
+
+void writeMesh(XmlText& xml, const MeshSpec& mesh, const std::string& name) {
+  xml.open("Mesh", name);
+  xml.text("socket_frame", "..");
+  xml.numbers("scale_factors", mesh.scale_factors);
+  xml.text("mesh_file", mesh.file);
+  xml.close();
+}
+
+// Meshes in a frame of their own hang on an offset frame that the body owns, as older documents'
+// meshes do after conversion.
+void writeMeshFrame(XmlText& xml, const MeshSpec& mesh, const std::string& name) {
+  xml.open("PhysicalOffsetFrame", name);
+  xml.open("attached_geometry");
+  writeMesh(xml, mesh, name + "_geom");
+  xml.close();
+  xml.text("socket_parent", "..");
+  xml.numbers("translation", mesh.translation);
+  xml.numbers("orientation", mesh.orientation);
+  xml.close();
+}
+
+void writeMeshes(XmlText& xml, const BodySpec& body) {
+  const auto write = [&](const char* element, bool on_body, auto&& write_one) {
+    bool open = false;
+    for (std::size_t i = 0; i < body.meshes.size(); ++i) {
+      if (isOnBody(body.meshes[i]) == on_body) {
+        if (!open) {
+          xml.open(element);
+          open = true;
+        }
+        write_one(xml, body.meshes[i], std::to_string(i + 1));
+      }
+    }
+    if (open) {
+      xml.close();
+    }
+  };
+  write("attached_geometry", true, [&](XmlText& out, const MeshSpec& mesh, const std::string& n) {
+    writeMesh(out, mesh, body.name + "_geom_" + n);
+  });
+  write("components", false, [&](XmlText& out, const MeshSpec& mesh, const std::string& n) {
+    writeMeshFrame(out, mesh, body.name + "_frame_" + n);
+  });
+}
+
 void writeBodies(XmlText& xml, const ModelSpec& spec) {
   xml.openSet("BodySet", "bodyset");
   for (const BodySpec& body : spec.bodies) {
     xml.open("Body", body.name);
+    writeMeshes(xml, body);
     writeWraps(xml, body.wrap_cylinders);
     xml.number("mass", body.mass);
     xml.numbers("mass_center", body.mass_center);

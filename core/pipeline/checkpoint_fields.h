@@ -32,9 +32,15 @@ void visitFields(Archive& archive, Access<Archive, WrapCylinderSpec>& value) {
 }
 
 template <class Archive>
+void visitFields(Archive& archive, Access<Archive, MeshSpec>& value) {
+  auto& [file, scale_factors, translation, orientation] = value;
+  archive(file, scale_factors, translation, orientation);
+}
+
+template <class Archive>
 void visitFields(Archive& archive, Access<Archive, BodySpec>& value) {
-  auto& [name, mass, mass_center, inertia, wrap_cylinders] = value;
-  archive(name, mass, mass_center, inertia, wrap_cylinders);
+  auto& [name, mass, mass_center, inertia, wrap_cylinders, meshes] = value;
+  archive(name, mass, mass_center, inertia, wrap_cylinders, meshes);
 }
 
 template <class Archive>

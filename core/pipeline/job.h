@@ -3,13 +3,17 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/analysis/acceptance.h"
 #include "core/analysis/foot_contacts.h"
+#include "core/analysis/joint_reserves.h"
+#include "core/analysis/marker_statistics.h"
 #include "core/analysis/muscle_analysis.h"
+#include "core/analysis/muscle_limits.h"
 #include "core/analysis/power_balance.h"
 #include "core/analysis/quality_check.h"
 #include "core/cmc/cmc_result.h"
@@ -122,8 +126,28 @@ struct JobQuality {
   std::vector<MomentComparison> moments;      ///< muscles against inverse dynamics, right leg
   std::vector<ActuatorStatistics> residuals;  ///< of CMC
   std::vector<ActuatorStatistics> reserves;
+  std::vector<JointReserve> joint_reserves;       ///< empty without inverse dynamics
+  std::vector<Saturation> saturations;            ///< of CMC, one per muscle
+  std::vector<FiberRange> fibers;                 ///< of CMC, one per muscle
+  std::vector<MarkerStatistics> markers;          ///< of IK
+  std::vector<ActuatorStatistics> rra_residuals;  ///< of the last pass
+  std::vector<ActuatorStatistics> so_residuals;
+  std::vector<ActuatorStatistics> so_reserves;
+  std::vector<JointReserve> so_joint_reserves;
+  std::vector<Saturation> so_saturations;
+  /// Largest vertical ground reaction of all feet together [N]; NaN without forces.
+  double peak_reaction = std::numeric_limits<double>::quiet_NaN();
+  /// Mean height of the whole body's mass centre over the CMC run [m].
+  double mass_center_height = std::numeric_limits<double>::quiet_NaN();
   std::vector<QualityCheck> checks;
 };
+
+/// Lengths between which fibers give active force [l0M] (Zajac 1989, Crit Rev Biomed Eng 17:359).
+inline constexpr double kShortestFiber = 0.5;
+inline constexpr double kLongestFiber = 1.5;
+/// From this control on a muscle counts as fully excited.
+inline constexpr double kFullExcitation = 0.99;
+
 /// Holds the figures of a job against what the field takes for trustworthy.
 void addChecks(const Job& job, JobQuality& quality);
 JobQuality calcQuality(const Job& job);

@@ -1,61 +1,18 @@
-#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "core/analysis/actuator_statistics.h"
-#include "core/analysis/moment_comparison.h"
 #include "core/analysis/tracking_error.h"
 #include "core/pipeline/job.h"
+#include "core/pipeline/quality_json.h"
 
 namespace gaitmill {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// JSON has no NaN: a figure that does not exist is null.
-Json toJson(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json summarizeMoment(const MomentComparison& moment) {
-  return {{"rmse_nm", toJson(moment.rmse)},
-          {"peak_difference_nm", toJson(moment.peak_difference)},
-          {"rmse_percent_of_peak", toJson(moment.rmse_percent_of_peak)},
-          {"peak_difference_percent_of_peak", toJson(moment.peak_difference_percent_of_peak)},
-          {"peak_nm", toJson(moment.peak)},
-          {"fraction_of_instants_at_90_percent", toJson(moment.fraction_at_90_percent)},
-          {"worst_share", toJson(moment.worst_share)},
-          {"worst_percent_of_cycle", toJson(moment.worst_percent)},
-          {"instants", moment.instants}};
-}
-
-Json summarizeTracking(const TrackingError& error) {
-  return {{"max_rms_deg", toJson(error.max_rms_deg)},
-          {"max_deg", toJson(error.max_deg)},
-          {"max_rms_cm", toJson(error.max_rms_cm)},
-          {"max_cm", toJson(error.max_cm)},
-          {"max_rms_centiradian", toJson(error.max_rms_centiradian)},
-          {"worst_rotation", error.worst_rotation},
-          {"worst_translation", error.worst_translation}};
-}
-
-Json summarizeActuators(const std::vector<ActuatorStatistics>& statistics,
-                        const std::vector<ActuatorSpec>& specs) {
-  Json summary = Json::object();
-  for (const ActuatorStatistics& entry : statistics) {
-    std::string unit = "nm";
-    for (const ActuatorSpec& spec : specs) {
-      unit = spec.name == entry.name && spec.kind == ActuatorSpec::Kind::kPoint ? "n" : unit;
-    }
-    summary[entry.name] = {{"peak_" + unit, toJson(entry.peak)},
-                           {"rms_" + unit, toJson(entry.rms)}};
-  }
-  return summary;
-}
 
 Json summarizeStages(const Job& job) {
   Json stages = Json::object();
@@ -88,14 +45,6 @@ Json summarizeStages(const Job& job) {
   return stages;
 }
 
-Json summarizeMarkers(const IkResult& ik) {
-  return {{"mean_rms_m", toJson(ik.mean_rms)},
-          {"max_rms_m", toJson(ik.max_rms)},
-          {"max_error_m", toJson(ik.max_error)},
-          {"max_error_marker", ik.max_error_marker},
-          {"worst_frame_s", toJson(ik.worst_frame_time)}};
-}
-
 Json summarizeScale(const ScaleResult& scale) {
   Json factors = Json::object();
   for (const BodyScale& body : scale.factors) {
@@ -103,11 +52,11 @@ Json summarizeScale(const ScaleResult& scale) {
   }
   Json placements = Json::array();
   for (const PlacementResult& placement : scale.placements) {
-    placements.push_back({{"rms_m", toJson(placement.rms)},
-                          {"max_error_m", toJson(placement.max_error)},
+    placements.push_back({{"rms_m", toJsonNumber(placement.rms)},
+                          {"max_error_m", toJsonNumber(placement.max_error)},
                           {"worst_marker", placement.worst_marker}});
   }
-  return {{"factors", factors}, {"mass_kg", toJson(scale.mass)}, {"placements", placements}};
+  return {{"factors", factors}, {"mass_kg", toJsonNumber(scale.mass)}, {"placements", placements}};
 }
 
 Json summarizeResiduals(const ResidualSum& sum) {
@@ -119,28 +68,17 @@ Json summarizeRra(const RraResult& rra) {
   Json passes = Json::array();
   for (const RraPassResult& pass : rra.passes) {
     passes.push_back(
-        {{"mass_before_kg", toJson(pass.adjustment.mass_before)},
-         {"mass_change_kg", toJson(pass.adjustment.mass_change)},
-         {"center_shift_x_m", toJson(pass.adjustment.shift_x)},
-         {"center_shift_z_m", toJson(pass.adjustment.shift_z)},
+        {{"mass_before_kg", toJsonNumber(pass.adjustment.mass_before)},
+         {"mass_change_kg", toJsonNumber(pass.adjustment.mass_change)},
+         {"center_shift_x_m", toJsonNumber(pass.adjustment.shift_x)},
+         {"center_shift_z_m", toJsonNumber(pass.adjustment.shift_z)},
          {"average_residuals_before", summarizeResiduals(pass.adjustment.average_before)},
          {"average_residuals_after", summarizeResiduals(pass.adjustment.average_after)},
          {"peak_residuals", summarizeResiduals(pass.residuals.peak)},
+         {"rms_residuals", summarizeResiduals(pass.residuals.rms)},
          {"tracking", summarizeTracking(calcTrackingError(pass.tracking_errors))}});
   }
   return passes;
-}
-
-Json summarizeInfeasible(const CmcResult& cmc) {
-  Json windows = Json::array();
-  for (const InfeasibleWindow& window : cmc.infeasible_windows) {
-    Json missing = Json::object();
-    for (const InfeasibleWindow::Missing& entry : window.missing) {
-      missing[entry.coordinate] = entry.force;
-    }
-    windows.push_back({{"time_s", window.time}, {"missing_nm", missing}});
-  }
-  return windows;
 }
 
 Json summarizeSubject(const Job& job) {
@@ -176,52 +114,6 @@ Json summarizeCycles(const std::vector<GaitCycle>& cycles) {
     list.push_back({cycle.start, cycle.end});
   }
   return list;
-}
-
-/// The verdict, why, and every figure that it rests on.
-void addVerdict(const std::vector<QualityCheck>& checks, Json& summary) {
-  summary["verdict"] = verdictName(judgeAll(checks));
-  summary["reasons"] = Json::array();
-  summary["checks"] = Json::array();
-  for (const QualityCheck& check : checks) {
-    if (check.judge() != Verdict::kPass) {
-      summary["reasons"].push_back(check.explain());
-    }
-    summary["checks"].push_back({{"figure", check.figure},
-                                 {"worst", check.worst},
-                                 {"value", toJson(check.value)},
-                                 {"unit", check.unit},
-                                 {"limit", check.limit},
-                                 {"fail_above", check.fail_above},
-                                 {"source", check.source},
-                                 {"verdict", verdictName(check.judge())}});
-  }
-}
-
-Json summarizeQuality(const Job& job, const JobQuality& quality) {
-  Json summary = Json::object();
-  addVerdict(quality.checks, summary);
-  if (job.ik) {
-    summary["markers"] = summarizeMarkers(*job.ik);
-  }
-  if (quality.rra_tracking) {
-    summary["tracking"]["rra"] = summarizeTracking(*quality.rra_tracking);
-  }
-  if (job.cmc) {
-    const std::vector<ActuatorSpec>& actuators = job.cmc->options.actuators;
-    summary["tracking"]["cmc"] = summarizeTracking(*quality.cmc_tracking);
-    summary["residuals"] = summarizeActuators(quality.residuals, actuators);
-    summary["reserves"] = summarizeActuators(quality.reserves, actuators);
-    summary["infeasible_windows"] = summarizeInfeasible(*job.cmc);
-  }
-  for (const MomentComparison& moment : quality.moments) {
-    summary["moments"][moment.coordinate] = summarizeMoment(moment);
-  }
-  if (!quality.moments.empty()) {
-    summary["moments"]["fraction_of_instants_at_90_percent"] =
-        toJson(calcFractionAt90Percent(quality.moments));
-  }
-  return summary;
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/base/index.h"
-#include "core/data/model_spec.h"
 #include "core/data/mesh.h"
+#include "core/data/model_spec.h"
 
 namespace gaitmill {
 

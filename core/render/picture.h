@@ -43,8 +43,9 @@ struct PictureData {
   TimeSeries kinematics;     ///< columns = coordinates [rad|m]
   TimeSeries muscle_values;  ///< columns = muscles: activation [-], force [N] or normalised fiber
                              ///< length [-]; no columns = not known
-  TimeSeries ground_reactions;  ///< as result table "ground_reactions"; no columns = not known
-  TimeSeries markers;           ///< as result table "measured_markers"; no columns = not known
+  TimeSeries ground_reactions;     ///< as result table "ground_reactions"; no columns = not known
+  TimeSeries markers;              ///< as result table "measured_markers"; no columns = not known
+  std::optional<GaitCycle> cycle;  ///< that labels state percentages of
 };
 
 /// Bytes of an image file.

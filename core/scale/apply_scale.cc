@@ -102,6 +102,10 @@ void scaleBody(const Vector3d& s, MassDistribution distribution, BodySpec& body)
   for (WrapCylinderSpec& cylinder : body.wrap_cylinders) {
     scaleWrap(s, cylinder);
   }
+  for (MeshSpec& mesh : body.meshes) {
+    stretch(s, mesh.scale_factors);
+    stretch(s, mesh.translation);
+  }
   scaleMass(s, distribution, body);
 }
 

@@ -14,6 +14,14 @@
 namespace gaitmill {
 namespace {
 
+int countMeshes(const ModelSpec& spec) {
+  std::size_t count = 0;
+  for (const BodySpec& body : spec.bodies) {
+    count += body.meshes.size();
+  }
+  return static_cast<int>(count);
+}
+
 class OsimReaderShared : public SharedDataTest {
  protected:
   ModelSpec read(const std::string& relative, std::vector<std::string>* warnings = nullptr) const {
@@ -59,6 +67,7 @@ TEST_F(OsimReaderShared, GenericModelHasThePublishedParts) {
     rigid += muscle.tendon == TendonKind::kRigid ? 1 : 0;
   }
   EXPECT_EQ(rigid, 34);
+  EXPECT_EQ(countMeshes(spec), 81);
 }
 
 // The prototypes of <defaults> give minimum control and maximum velocity; what neither they nor the
@@ -113,6 +122,7 @@ TEST_F(OsimReaderShared, OldLayoutGivesTheSameModel) {
   const ModelSpec current = read("data/models/Rajagopal2016.osim");
   const ModelSpec old = read("data/models/Rajagopal2015.osim");
   expectRajagopalCounts(old, 66);
+  EXPECT_EQ(countMeshes(old), 81);
   for (std::size_t i = 0; i < current.muscles.size(); ++i) {
     const MuscleSpec& a = current.muscles[i];
     const MuscleSpec& b = old.muscles[i];

@@ -9,6 +9,7 @@ namespace gaitmill {
 struct OsimPieces {
   std::string version = "40000";
   std::string defaults;
+  std::string thigh;  ///< further properties of that body
   std::string hip_frames =
       "<socket_parent_frame>/ground</socket_parent_frame>"
       "<socket_child_frame>/bodyset/thigh</socket_child_frame>";
@@ -27,9 +28,9 @@ struct OsimPieces {
 
 inline std::string makeOsim(const OsimPieces& pieces) {
   return "<OpenSimDocument Version=\"" + pieces.version + "\"><Model name=\"leg\"><defaults>" +
-         pieces.defaults +
-         "</defaults><BodySet><objects><Body name=\"thigh\"><mass>9</mass></Body>"
-         "<Body name=\"shank\"><mass>4</mass></Body></objects></BodySet>"
+         pieces.defaults + "</defaults><BodySet><objects><Body name=\"thigh\"><mass>9</mass>" +
+         pieces.thigh +
+         "</Body><Body name=\"shank\"><mass>4</mass></Body></objects></BodySet>"
          "<JointSet><objects><PinJoint name=\"hip_joint\">" +
          pieces.hip_frames + "<coordinates><Coordinate name=\"hip\" /></coordinates></PinJoint>" +
          "<CustomJoint name=\"knee_joint\">" + pieces.knee_frames + "<coordinates>" +

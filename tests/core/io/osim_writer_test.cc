@@ -25,6 +25,12 @@ bool same(const WrapCylinderSpec& a, const WrapCylinderSpec& b) {
          quadrant == b.quadrant && radius == b.radius && length == b.length && active == b.active;
 }
 
+bool same(const MeshSpec& a, const MeshSpec& b) {
+  const auto& [file, scale_factors, translation, orientation] = a;
+  return file == b.file && scale_factors == b.scale_factors && translation == b.translation &&
+         orientation == b.orientation;
+}
+
 bool same(const FrameSpec& a, const FrameSpec& b) {
   const auto& [body, translation, orientation] = a;
   return body == b.body && translation == b.translation && orientation == b.orientation;
@@ -61,12 +67,13 @@ void expectSameList(const List& a, const List& b) {
 }
 
 void expectSame(const BodySpec& a, const BodySpec& b) {
-  const auto& [name, mass, mass_center, inertia, wraps] = a;
+  const auto& [name, mass, mass_center, inertia, wraps, meshes] = a;
   EXPECT_EQ(name, b.name);
   EXPECT_EQ(mass, b.mass);
   EXPECT_EQ(mass_center, b.mass_center);
   EXPECT_EQ(inertia, b.inertia);
   expectSameList(wraps, b.wrap_cylinders);
+  expectSameList(meshes, b.meshes);
 }
 
 void expectSame(const JointSpec& a, const JointSpec& b) {
@@ -323,6 +330,9 @@ ModelSpec makeModelWithEverything() {
   }
   spec.bodies[0].wrap_cylinders = {{"wrap_a", {1, 2, 3}, {4, 5, 6}, "-y", 0.03, 0.2, true},
                                    {"wrap_b", {0, 0, 0}, {0, 0, 0}, "all", 1, 1, false}};
+  spec.bodies[0].meshes = {{"a & b.vtp", {0.85, 1.0 / 3.0, 1}, {0, 0, 0}, {0, 0, 0}},
+                           {"c.stl", {1, 1, 1}, {0.1, 0.2, 0.3}, {0, 0, 0}},
+                           {"d.obj", {1, 1, 2}, {0, 0, 0}, {0.1, -0.2, 0.3}}};
   spec.ground_wrap_cylinders = {{"wrap_g", {0, 0.1, 0}, {0, 0, 0}, "x", 0.3, 2, true}};
   spec.couplers = {
       {"c", "pin_q0", "slider_q0", {FunctionSpec::Kind::kLinear, {}, {2, 1}, 3}, 0.5, false},

@@ -213,6 +213,19 @@ TEST(Rajagopal2016, LeftJointOffsetsMirrorTheRight) {
   }
 }
 
+// spec/rajagopal2016.md 13.
+TEST(Rajagopal2016, BodiesNameTheirMeshes) {
+  const auto meshes = [](const char* body) {
+    return getModel().bodies.at(static_cast<std::size_t>(getModel().findBody(body))).meshes;
+  };
+  ASSERT_EQ(meshes("tibia_l").size(), 2u);
+  EXPECT_EQ(meshes("tibia_l")[0].file, "l_tibia.vtp");
+  EXPECT_EQ(meshes("tibia_l")[0].scale_factors, Eigen::Vector3d::Ones());
+  ASSERT_EQ(meshes("hand_r").size(), 27u);
+  EXPECT_EQ(meshes("hand_r")[0].file, "pisiform_rvs.vtp");
+  EXPECT_EQ(meshes("hand_r")[0].scale_factors, 0.85 * Eigen::Vector3d::Ones());
+}
+
 TEST(Rajagopal2016, DocumentIsWhatOurWriterWrites) {
   EXPECT_EQ(writeOsim(getModel()), readFile(kDocument));
 }

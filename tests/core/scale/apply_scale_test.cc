@@ -24,6 +24,7 @@ ModelSpec makeRod() {
   wrap.radius = 0.02;
   wrap.length = 0.1;
   rod.wrap_cylinders.push_back(wrap);
+  rod.meshes.push_back({"rod.vtp", {0.85, 0.85, 0.85}, {0, 0.1, 0}, {0, 0, 0}});
   spec.bodies.push_back(rod);
   JointSpec joint;
   joint.name = "hinge";
@@ -71,6 +72,13 @@ TEST(ApplyScale, WrapCylinderTakesTheMeanOfItsRadialFactors) {
   const WrapCylinderSpec& wrap = scaled.bodies[0].wrap_cylinders[0];
   EXPECT_NEAR(wrap.radius, 0.02 * 1.2, tol(1e-15));
   EXPECT_NEAR(wrap.length, 0.1 * 1.5, tol(1e-15));
+}
+
+TEST(ApplyScale, MeshesStretchWithTheirBody) {
+  const ModelSpec scaled = applyScaleFactors(makeRod(), {{"rod", {1.1, 1.2, 1.3}}}, kPreserved);
+  const MeshSpec& mesh = scaled.bodies[0].meshes[0];
+  EXPECT_TRUE(mesh.scale_factors.isApprox(0.85 * Eigen::Vector3d(1.1, 1.2, 1.3), 1e-14));
+  EXPECT_TRUE(mesh.translation.isApprox(Eigen::Vector3d(0, 0.12, 0), 1e-14));
 }
 
 TEST(ApplyScale, MuscleLengthsFollowThePath) {

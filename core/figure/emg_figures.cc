@@ -1,0 +1,187 @@
+// Figures of activations beside electromyograms.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "core/figure/job_builders.h"
+#include "core/figure/muscle_names.h"
+#include "core/figure/numbers.h"
+
+namespace gaitmill {
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// A channel of the electromyogram and the muscles that it is held against.
+struct Channel {
+  std::string name;  ///< column of the table "emg"
+  std::vector<std::string> muscles;
+};
+
+std::vector<Channel> readChannels(const JobData& data) {
+  std::vector<Channel> channels;
+  const Json::json_pointer place("/emg/channels");
+  if (!data.summary().contains(place)) {
+    return channels;
+  }
+  for (const Json& entry : data.summary().at(place)) {
+    Channel channel{entry.value("channel", ""), {}};
+    for (const Json& muscle : entry.value("muscles", Json::array())) {
+      if (muscle.is_string() && data.has("activations", muscle.get<std::string>())) {
+        channel.muscles.push_back(muscle.get<std::string>());
+      }
+    }
+    if (!channel.muscles.empty() && data.has("emg", channel.name)) {
+      channels.push_back(channel);
+    }
+  }
+  return channels;
+}
+
+/// Mean activation of muscles, as column "mean".
+TimeSeries calcMeanActivation(const TimeSeries& activations,
+                              const std::vector<std::string>& muscles) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(activations.rowCount());
+  for (const std::string& muscle : muscles) {
+    sum += activations.values.col(activations.getColumn(muscle));
+  }
+  TimeSeries table = makeEmptyTable(activations);
+  addColumn("mean", sum / static_cast<double>(muscles.size()), table);
+  return table;
+}
+
+double findPeak(const Panel& panel, SeriesRole role) {
+  double peak = std::numeric_limits<double>::quiet_NaN();
+  for (const Series& series : panel.series) {
+    for (const double value : series.y) {
+      if (series.role == role && series.mark == SeriesMark::kLine) {
+        peak = std::fmax(peak, value);
+      }
+    }
+  }
+  return peak;
+}
+
+/// Scales the electromyogram so that it peaks where the activation does, over what is shown.
+void scaleToActivation(Panel& panel) {
+  const double factor = findPeak(panel, SeriesRole::kSimulated) / findPeak(panel, SeriesRole::kEmg);
+  if (!std::isfinite(factor)) {
+    return;
+  }
+  for (Series& series : panel.series) {
+    if (series.role == SeriesRole::kEmg) {
+      std::transform(
+          series.y.begin(), series.y.end(), series.y.begin(), [&](double y) { return factor * y; });
+      std::transform(series.low.begin(), series.low.end(), series.low.begin(), [&](double y) {
+        return factor * y;
+      });
+    }
+  }
+}
+
+Panel makeChannelPanel(const JobData& data, const Channel& channel, const std::string& title) {
+  const BodySide side = splitSide(channel.muscles.front()).side;
+  Panel panel = makePanel(data, channel.name, title, {"Activation", "", 0.0, 1.0});
+  data.addCurve(data.table("emg"),
+                channel.name,
+                side,
+                {"electromyogram, scaled", SeriesRole::kEmg, 1},
+                panel);
+  data.addCurve(calcMeanActivation(data.table("activations"), channel.muscles),
+                "mean",
+                side,
+                {"simulated activation", SeriesRole::kSimulated, 1},
+                panel);
+  scaleToActivation(panel);
+  data.addToeOffs(side != BodySide::kLeft, side == BodySide::kLeft, panel);
+  return panel;
+}
+
+/// "Soleus", "Gluteus maximus" for the mean of its three parts; with the side.
+std::string nameMuscles(const std::vector<std::string>& muscles) {
+  const SidedName first = splitSide(muscles.front());
+  std::string name = findMuscleName(first.base).display;
+  if (muscles.size() > 1) {
+    name = name.substr(0, name.find(','));
+  }
+  const std::string side = sideName(first.side);
+  return side.empty() ? name : name + ", " + side;
+}
+
+std::string describeEmg(const JobData& data) {
+  std::string sentence =
+      " Each electromyogram is scaled to the peak of the activation over what is shown "
+      "(Rajagopal et al. 2016).";
+  const Json::json_pointer place("/emg/electromechanical_delay_s");
+  const Json delay = data.summary().contains(place) ? data.summary().at(place) : Json();
+  if (delay.is_number() && delay.get<double>() != 0) {
+    sentence += " It is shown " + formatShort(1000 * delay.get<double>()) +
+                " ms later than recorded, the electromechanical delay.";
+  } else {
+    sentence += " No electromechanical delay is taken into account.";
+  }
+  return sentence + " " + data.describeAxis();
+}
+
+/// The eight of the paper, right leg; the first muscle finds the channel.
+struct PaperGroup {
+  const char* title;
+  std::vector<std::string> muscles;
+};
+
+const std::vector<PaperGroup>& paperGroups() {
+  static const std::vector<PaperGroup> groups = {
+      {"Gluteus maximus", {"glmax1_r", "glmax2_r", "glmax3_r"}},
+      {"Gluteus medius", {"glmed1_r", "glmed2_r", "glmed3_r"}},
+      {"Rectus femoris", {"recfem_r"}},
+      {"Vastus lateralis", {"vaslat_r"}},
+      {"Biceps femoris, long head", {"bflh_r"}},
+      {"Gastrocnemius, lateral", {"gaslat_r"}},
+      {"Tibialis anterior", {"tibant_r"}},
+      {"Soleus", {"soleus_r"}}};
+  return groups;
+}
+
+std::string findChannel(const std::vector<Channel>& channels, const std::string& muscle) {
+  for (const Channel& channel : channels) {
+    if (std::find(channel.muscles.begin(), channel.muscles.end(), muscle) !=
+        channel.muscles.end()) {
+      return channel.name;
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+void buildActivationsEmg(const JobData& data, Figure& figure) {
+  for (const Channel& channel : readChannels(data)) {
+    Panel panel = makeChannelPanel(data, channel, nameMuscles(channel.muscles));
+    panel.note = "channel " + channel.name;
+    figure.panels.push_back(std::move(panel));
+  }
+  figure.caption += describeEmg(data);
+}
+
+void buildPaperFigure5(const JobData& data, Figure& figure) {
+  const std::vector<Channel> channels = readChannels(data);
+  for (const PaperGroup& group : paperGroups()) {
+    std::vector<std::string> muscles;
+    for (const std::string& muscle : group.muscles) {
+      if (data.has("activations", muscle)) {
+        muscles.push_back(muscle);
+      }
+    }
+    if (!muscles.empty()) {
+      figure.panels.push_back(
+          makeChannelPanel(data, {findChannel(channels, muscles.front()), muscles}, group.title));
+    }
+  }
+  figure.caption += describeEmg(data);
+}
+
+}  // namespace gaitmill

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/figure/result_source.h"
+
+namespace gaitmill {
+
+/// Results that a test has written down.
+class MemoryResults : public ResultSource {
+ public:
+  explicit MemoryResults(std::string summary) : summary_(std::move(summary)) {}
+
+  std::map<std::string, TimeSeries> tables;
+
+  bool has(const std::string& table, Axis axis) const override {
+    return axis == Axis::kTime && tables.count(table) > 0;
+  }
+  const TimeSeries& table(const std::string& table, Axis) const override {
+    const auto found = tables.find(table);
+    require(found != tables.end(), ErrorCode::kResultNotFound, "no table " + table);
+    return found->second;
+  }
+  const std::string& summary() const override { return summary_; }
+
+ private:
+  std::string summary_;
+};
+
+}  // namespace gaitmill
