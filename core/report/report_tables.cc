@@ -106,35 +106,55 @@ Html renderComponents(const Json& components) {
   return shown;
 }
 
+/// A quantity of each pass, given by where it stands in the pass.
+struct PassRow {
+  const char* title;
+  std::vector<std::string> path;
+  double scale = 1;
+};
+
+Html renderMember(const Json& member, double scale) {
+  return member.is_array()
+             ? renderComponents(member)
+             : renderFigure(member.is_number() ? member.get<double>() : std::nan(""), scale);
+}
+
+// Passes stand side by side: there are few, and what they say of each is much.
 Html renderPasses(const Json& summary) {
-  HtmlTable table("Passes of residual reduction; residuals along x, y and z",
-                  {{"Pass"},
-                   {"Mass in kg", true},
-                   {"Change in kg", true},
-                   {"Shift of the mass centre x, z in mm", true},
-                   {"Mean force before in N", true},
-                   {"Mean moment before in N\u00b7m", true},
-                   {"Peak force in N", true},
-                   {"Peak moment in N\u00b7m", true},
-                   {"Largest deviation in \u00b0", true},
-                   {"in cm", true}});
-  int number = 0;
-  for (const Json& pass : findMember(summary, {"rra_passes"})) {
-    const Json& before = findMember(pass, {"average_residuals_before"});
-    const Json& peak = findMember(pass, {"peak_residuals"});
-    table.addRow({text(std::to_string(++number)),
-                  renderNumber(pass, "mass_before_kg"),
-                  renderNumber(pass, "mass_change_kg"),
-                  renderNumber(pass, "center_shift_x_m", kMillimetres) + text(" / ") +
-                      renderNumber(pass, "center_shift_z_m", kMillimetres),
-                  renderComponents(findMember(before, {"force_n"})),
-                  renderComponents(findMember(before, {"moment_nm"})),
-                  renderComponents(findMember(peak, {"force_n"})),
-                  renderComponents(findMember(peak, {"moment_nm"})),
-                  renderFigure(findNumber(pass, {"tracking", "max_deg"})),
-                  renderFigure(findNumber(pass, {"tracking", "max_cm"}))});
+  static const std::vector<PassRow> rows = {
+      {"Body mass before, kg", {"mass_before_kg"}},
+      {"Change of mass, kg", {"mass_change_kg"}},
+      {"Shift of the mass centre forward, mm", {"center_shift_x_m"}, kMillimetres},
+      {"Shift of the mass centre to the right, mm", {"center_shift_z_m"}, kMillimetres},
+      {"Mean residual force before, N", {"average_residuals_before", "force_n"}},
+      {"Mean residual force after the shift, N", {"average_residuals_after", "force_n"}},
+      {"Mean residual moment before, N\u00b7m", {"average_residuals_before", "moment_nm"}},
+      {"Mean residual moment after the shift, N\u00b7m", {"average_residuals_after", "moment_nm"}},
+      {"Peak residual force, N", {"peak_residuals", "force_n"}},
+      {"RMS residual force, N", {"rms_residuals", "force_n"}},
+      {"Peak residual moment, N\u00b7m", {"peak_residuals", "moment_nm"}},
+      {"RMS residual moment, N\u00b7m", {"rms_residuals", "moment_nm"}},
+      {"Largest rotation from the measured motion, \u00b0", {"tracking", "max_deg"}},
+      {"Largest RMS rotation, \u00b0", {"tracking", "max_rms_deg"}},
+      {"Largest translation, cm", {"tracking", "max_cm"}},
+      {"Largest RMS translation, cm", {"tracking", "max_rms_cm"}}};
+  const Json& passes = findMember(summary, {"rra_passes"});
+  if (passes.empty()) {
+    return {};
   }
-  return renderIfAny(table);
+  std::vector<TableColumn> columns = {{"Residuals along x (forward), y (up), z (right)"}};
+  for (std::size_t pass = 1; pass <= passes.size(); ++pass) {
+    columns.push_back({"Pass " + std::to_string(pass), true});
+  }
+  HtmlTable table("Passes of residual reduction", columns);
+  for (const PassRow& row : rows) {
+    std::vector<Html> cells = {text(row.title)};
+    for (const Json& pass : passes) {
+      cells.push_back(renderMember(findMember(pass, row.path), row.scale));
+    }
+    table.addRow(cells);
+  }
+  return table.render();
 }
 
 /// Peaks and RMS of actuators whose statistics are named peak_n and rms_n, or peak_nm and rms_nm.
