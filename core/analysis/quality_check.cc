@@ -7,15 +7,10 @@
 
 namespace gaitmill {
 
-namespace {
-
-/// Three digits are all that a judgement needs.
 std::string formatFigure(double value) {
   const double size = std::abs(value);
   return formatFixed(value, size >= 100 ? 0 : size >= 10 ? 1 : 2);
 }
-
-}  // namespace
 
 const char* verdictName(Verdict verdict) {
   switch (verdict) {

@@ -25,9 +25,10 @@ bool isTranslation(const TimeSeries& table, int column) {
 }
 
 // NaN loses against any number.
-void keepLarger(double value, double& largest) {
+void keepLarger(double value, const std::string& label, double& largest, std::string& worst) {
   if (std::isnan(largest) || value > largest) {
     largest = value;
+    worst = label;
   }
 }
 
@@ -42,13 +43,14 @@ TrackingError calcTrackingError(const TimeSeries& errors) {
     const bool is_translation = isTranslation(errors, column);
     const double largest = errors.values.col(column).cwiseAbs().maxCoeff();
     const double rms = std::sqrt(errors.values.col(column).squaredNorm() / errors.rowCount());
-    double& worst_rms = is_translation ? rms_translation : rms_rotation;
-    if (std::isnan(worst_rms) || rms > worst_rms) {
-      worst_rms = rms;
-      (is_translation ? result.worst_translation : result.worst_rotation) =
-          errors.labels[static_cast<std::size_t>(column)];
+    const std::string& label = errors.labels[static_cast<std::size_t>(column)];
+    if (is_translation) {
+      keepLarger(rms, label, rms_translation, result.worst_translation);
+      keepLarger(largest, label, max_translation, result.worst_peak_translation);
+    } else {
+      keepLarger(rms, label, rms_rotation, result.worst_rotation);
+      keepLarger(largest, label, max_rotation, result.worst_peak_rotation);
     }
-    keepLarger(largest, is_translation ? max_translation : max_rotation);
   }
   result.max_deg = toDegrees(max_rotation);
   result.max_cm = 100.0 * max_translation;

@@ -16,7 +16,9 @@ struct TrackingError {
                                ///< degrees
   double max_rms_cm;           ///< largest RMS over time of any translation [cm]
   std::string worst_rotation;  ///< coordinate of max_rms_deg
-  std::string worst_translation;  ///< coordinate of max_rms_cm
+  std::string worst_translation;            ///< coordinate of max_rms_cm
+  std::string worst_peak_rotation = {};     ///< coordinate of max_deg
+  std::string worst_peak_translation = {};  ///< coordinate of max_cm
 };
 
 /// Statistics of a table of errors q_reference - q; every row weighs the same. A column is a

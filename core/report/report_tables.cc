@@ -124,8 +124,8 @@ Html renderPasses(const Json& summary) {
   static const std::vector<PassRow> rows = {
       {"Body mass before, kg", {"mass_before_kg"}},
       {"Change of mass, kg", {"mass_change_kg"}},
-      {"Shift of the mass centre forward, mm", {"center_shift_x_m"}, kMillimetres},
-      {"Shift of the mass centre to the right, mm", {"center_shift_z_m"}, kMillimetres},
+      {"Shift of the mass centre forward, mm", {"center_shift_x_m"}, -kMillimetres},
+      {"Shift of the mass centre to the right, mm", {"center_shift_z_m"}, -kMillimetres},
       {"Mean residual force before, N", {"average_residuals_before", "force_n"}},
       {"Mean residual force after the shift, N", {"average_residuals_after", "force_n"}},
       {"Mean residual moment before, N\u00b7m", {"average_residuals_before", "moment_nm"}},
