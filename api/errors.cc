@@ -188,6 +188,8 @@ int httpStatus(ErrorCode code) {
     case ErrorCode::kTableNoRows:
     case ErrorCode::kTableUnknownLabel:
     case ErrorCode::kTableShape:
+    case ErrorCode::kEmgHeader:
+    case ErrorCode::kEmgChannels:
     case ErrorCode::kGrfColumns:
     case ErrorCode::kGrfUnits:
     case ErrorCode::kGrfValue:
