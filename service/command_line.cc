@@ -186,13 +186,30 @@ void addRun(CLI::App& app, RunOptions& options) {
   command->footer(kFooter);
 }
 
-void addModel(CLI::App& app, ModelOptions& options) {
+void addCalibrate(CLI::App& model, CalibrateOptions& options) {
+  CLI::App* command =
+      model.add_subcommand("calibrate", "Slack lengths that give fibers their measured lengths");
+  command->add_option("file", options.path, "An .osim document; the shipped model if left out")
+      ->check(CLI::ExistingFile);
+  command
+      ->add_option("--targets",
+                   options.targets,
+                   "Table muscle,norm_fiber_length or muscle,fiber_length_m; left out, the table "
+                   "shows where the model's own muscles rest")
+      ->check(CLI::ExistingFile);
+  command->add_option("-o,--out", options.out, "Write the calibrated model here");
+  addModels(*command, options.models);
+  command->footer(kFooter);
+}
+
+void addModel(CLI::App& app, ModelOptions& options, CalibrateOptions& calibrate) {
   CLI::App* command = app.add_subcommand("model", "Show what is in a model document");
   command->add_option("file", options.path, "An .osim document; the shipped model if left out")
       ->check(CLI::ExistingFile);
   command->add_flag_callback(
       "--json", [&options] { options.report = ModelReport::kJson; }, "As JSON");
   addModels(*command, options.models);
+  addCalibrate(*command, calibrate);
   command->footer(kFooter);
 }
 
@@ -220,6 +237,7 @@ struct Parsed {
   ServeFlags serve;
   RunOptions run;
   ModelOptions model;
+  CalibrateOptions calibrate;
   SampleOptionsOnDisk sample;
   BackupOptions backup;
   RestoreOptions restore;
@@ -236,6 +254,9 @@ Command choose(const CLI::App& app, Parsed& parsed) {
     parsed.child.task =
         chosen == "solve" ? ChildOptions::Task::kSolve : ChildOptions::Task::kInspect;
     return parsed.child;
+  }
+  if (chosen == "model" && app.get_subcommand("model")->got_subcommand("calibrate")) {
+    return parsed.calibrate;
   }
   if (chosen == "keys") {
     return makeKeysOptions(app, parsed.keys);
@@ -258,7 +279,7 @@ Command parseCommandLine(const std::vector<std::string>& arguments) {
   app.footer(kFooter);
   addServe(app, parsed.serve);
   addRun(app, parsed.run);
-  addModel(app, parsed.model);
+  addModel(app, parsed.model, parsed.calibrate);
   addSample(app, parsed.sample);
   addBackup(app, parsed.backup, parsed.restore);
   addKeys(app, parsed.keys);

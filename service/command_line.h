@@ -62,6 +62,7 @@ struct PrintAndExit {
 using Command = std::variant<ServeOptions,
                              RunOptions,
                              ModelOptions,
+                             CalibrateOptions,
                              SampleOptionsOnDisk,
                              BackupOptions,
                              RestoreOptions,

@@ -55,11 +55,18 @@ int execute(RunOptions options) {
   return kExitSuccess;
 }
 
+std::string findModel(const std::string& path, const std::string& models) {
+  return path.empty() ? findModelsFolder(models) + "/rajagopal2016/rajagopal2016.osim" : path;
+}
+
 int execute(const ModelOptions& options) {
-  const std::string path =
-      options.path.empty() ? findModelsFolder(options.models) + "/rajagopal2016/rajagopal2016.osim"
-                           : options.path;
-  std::cout << describeModel(path, options.report);
+  std::cout << describeModel(findModel(options.path, options.models), options.report);
+  return kExitSuccess;
+}
+
+int execute(CalibrateOptions options) {
+  options.path = findModel(options.path, options.models);
+  std::cout << calibrateModel(options);
   return kExitSuccess;
 }
 

@@ -1,13 +1,22 @@
 #include "service/model_command.h"
 
+#include <cmath>
+#include <iomanip>
+#include <locale>
+#include <sstream>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/io/fiber_target_reader.h"
 #include "core/io/files.h"
 #include "core/io/model_table.h"
 #include "core/io/osim_reader.h"
+#include "core/io/osim_writer.h"
+#include "core/validation/tendon_slack.h"
 
 namespace gaitmill {
 
@@ -97,6 +106,37 @@ std::string makeJson(const ModelSpec& spec, const std::vector<std::string>& warn
   return document.dump(2) + "\n";
 }
 
+void writeCalibrationRow(std::ostream& out, const SlackCalibration& row) {
+  const double difference_mm = 1000 * (row.slack_length - row.present_slack_length);
+  out << std::left << std::setw(18) << row.muscle << std::right << std::fixed
+      << std::setprecision(4) << std::setw(8) << row.norm_fiber_length
+      << (row.is_given ? "  " : " .") << std::setprecision(3) << std::setw(12)
+      << 100 * row.path_length << std::setw(12) << 100 * row.present_slack_length << std::setw(14)
+      << 100 * row.slack_length << (row.tendon == TendonKind::kRigid ? "*" : " ")
+      << std::setprecision(2) << std::setw(11) << difference_mm << '\n';
+}
+
+std::string formatCalibration(const std::vector<SlackCalibration>& rows) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << "Tendon slack lengths at hip flexion 7, abduction 2, knee 0, plantarflexion 20 deg, "
+         "activation 1 %\n\n"
+      << "Muscle              target l~   path [cm] present [cm] calibrated [cm]  change [mm]\n";
+  int given = 0;
+  int within = 0;
+  for (const SlackCalibration& row : rows) {
+    writeCalibrationRow(out, row);
+    given += row.is_given ? 1 : 0;
+    within += row.is_given && std::abs(row.slack_length - row.present_slack_length) < 1e-3 ? 1 : 0;
+  }
+  out << "\n* rigid tendon; . no target: where the muscle rests as it is, kept\n";
+  if (given > 0) {
+    out << within << " of " << given
+        << " calibrated slack lengths are within 1 mm of the present\n";
+  }
+  return out.str();
+}
+
 }  // namespace
 
 std::string describeModel(const std::string& path, ModelReport report) {
@@ -108,6 +148,29 @@ std::string describeModel(const std::string& path, ModelReport report) {
   std::string text = formatModelTable(spec);
   for (const std::string& warning : warnings) {
     text += "warning: " + warning + "\n";
+  }
+  return text;
+}
+
+std::string calibrateModel(const CalibrateOptions& options) {
+  ModelSpec spec = readOsim(readFile(options.path), options.path);
+  std::vector<FiberTarget> targets;
+  if (!options.targets.empty()) {
+    targets = readFiberTargets(readFile(options.targets), options.targets);
+  }
+  std::vector<SlackCalibration> rows;
+  try {
+    rows = calibrateTendonSlack(spec, targets);
+  } catch (Error& error) {
+    if (error.where().line > 0) {
+      error.setFile(options.targets);
+    }
+    throw;
+  }
+  std::string text = formatCalibration(rows);
+  if (!options.out.empty()) {
+    writeFile(options.out, writeOsim(applyCalibration(std::move(spec), rows)));
+    text += "written: " + options.out + "\n";
   }
   return text;
 }

@@ -17,4 +17,18 @@ enum class ModelReport {
 /// @throws Error of readFile and readOsim
 std::string describeModel(const std::string& path, ModelReport report);
 
+/// `gaitmill model calibrate`: slack lengths that give the fibers of a pose their target lengths.
+struct CalibrateOptions {
+  std::string path;     ///< model document; empty = the model that ships with gaitmill
+  std::string targets;  ///< table of core/io/fiber_target_reader.h; empty = the model as it is
+  std::string out;      ///< calibrated model document; empty = none
+  std::string models;   ///< folder
+};
+
+/// Calibrates (core/validation/tendon_slack.h) and describes each muscle in a row: target
+/// normalised fiber length, present and calibrated slack length, difference. Writes the calibrated
+/// model if asked to.
+/// @throws Error of readFile, readOsim, readFiberTargets, calibrateTendonSlack and writeFile
+std::string calibrateModel(const CalibrateOptions& options);
+
 }  // namespace gaitmill

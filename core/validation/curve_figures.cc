@@ -10,6 +10,7 @@
 #include "core/base/units.h"
 #include "core/muscle/muscle.h"
 #include "core/muscle/muscle_curves.h"
+#include "core/validation/posed_muscles.h"
 #include "core/validation/series.h"
 
 namespace gaitmill {
@@ -208,10 +209,7 @@ Panel makeIsometricPanel(const MuscleView& view) {
   for (const double activation : {1.0, 0.5, view.muscle.minimumActivation()}) {
     Series series = sample(
         "activation " + formatFixed(activation, 2), SeriesRole::kPlain, range, [&](double length) {
-          const Muscle& muscle = view.muscle;
-          const double fiber =
-              muscle.hasRigidTendon() ? 0.0 : muscle.solveStaticLength(activation, length);
-          return muscle.calcState(activation, fiber, length, 0).tendon_force;
+          return calcIsometricForce(view.muscle, activation, length).total;
         });
     for (double& x : series.x) {
       x *= 100;

@@ -25,6 +25,13 @@ double findNeutral(const CoordinateSpec& coordinate) {
 
 }  // namespace
 
+IsometricForce calcIsometricForce(const Muscle& muscle, double activation, double path_length) {
+  const double length =
+      muscle.hasRigidTendon() ? 0.0 : muscle.solveStaticLength(activation, path_length);
+  const FiberState state = muscle.calcState(activation, length, path_length, 0);
+  return {state.tendon_force, state.passive_force * state.cos_pennation, state.length};
+}
+
 PosedMuscles::PosedMuscles(const ModelSpec& model)
     : model_(releaseLocks(model)),
       free_(model_),
@@ -59,15 +66,6 @@ void PosedMuscles::setPose(const Eigen::Ref<const Eigen::VectorXd>& q) {
 
 double PosedMuscles::findMomentArm(MuscleIndex m, CoordinateIndex free) const {
   return arms_(m.value(), free_.findFree(free));
-}
-
-IsometricForce PosedMuscles::calcForce(MuscleIndex m, double activation) const {
-  const Muscle& muscle = this->muscle(m);
-  const double path_length = findLength(m);
-  const double guess =
-      muscle.hasRigidTendon() ? 0.0 : muscle.solveStaticLength(activation, path_length);
-  const FiberState state = muscle.calcState(activation, guess, path_length, 0);
-  return {state.tendon_force, state.passive_force * state.cos_pennation, state.length};
 }
 
 }  // namespace gaitmill

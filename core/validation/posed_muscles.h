@@ -28,6 +28,11 @@ struct IsometricForce {
   double fiber_length = 0;  ///< [m]
 };
 
+/// Static equilibrium of fiber and tendon at zero velocity (spec/muscle.md 6.1, 7).
+/// @param activation   [-] raised to the muscle's minimum
+/// @param path_length  [m]
+IsometricForce calcIsometricForce(const Muscle& muscle, double activation, double path_length);
+
 /// The muscles of a model held still in chosen poses: lengths, moment arms and forces as an
 /// anatomist or a dynamometer would find them. One per thread.
 class PosedMuscles {
@@ -57,9 +62,10 @@ class PosedMuscles {
   /// @param free  a coordinate that no coupler drives
   double findMomentArm(MuscleIndex m, CoordinateIndex free) const;
 
-  /// Static equilibrium of fiber and tendon at zero velocity (spec/muscle.md 6.1, 7).
-  /// @param activation  [-] raised to the muscle's minimum
-  IsometricForce calcForce(MuscleIndex m, double activation) const;
+  /// calcIsometricForce on the path of the pose.
+  IsometricForce calcForce(MuscleIndex m, double activation) const {
+    return calcIsometricForce(muscle(m), activation, findLength(m));
+  }
 
  private:
   Model model_;

@@ -7,6 +7,7 @@
 #include "core/validation/curve_figures.h"
 #include "core/validation/isometric_figure.h"
 #include "core/validation/moment_arm_figures.h"
+#include "core/validation/parameter_figures.h"
 
 namespace gaitmill {
 
@@ -60,6 +61,20 @@ const std::vector<FigureKind>& figureKinds() {
        hasMuscles,
        [](const ModelSpec& model, const ValidationOptions&) {
          return makeForceLengthVelocityFigure(model);
+       }},
+      {{"parameters",
+        "Muscle parameters",
+        "Maximum force, fiber length, slack length and pennation beside the printed values."},
+       hasMuscles,
+       [](const ModelSpec& model, const ValidationOptions&) {
+         return makeParameterFigure(model);
+       }},
+      {{"parameter_variability",
+        "Variability of muscle parameters",
+        "Printed spreads of the parameters beside recomputed ones."},
+       hasVariabilityFigure,
+       [](const ModelSpec& model, const ValidationOptions& options) {
+         return makeVariabilityFigure(model, options);
        }},
   };
   return kinds;

@@ -59,6 +59,12 @@ TEST(CommandLine, RunTakesFilesAndStage) {
 TEST(CommandLine, ModelAndSampleHaveTheirFlags) {
   EXPECT_EQ(parseAs<ModelOptions>({"model", "--json"}).report, ModelReport::kJson);
   EXPECT_EQ(parseAs<ModelOptions>({"model", "CMakeLists.txt"}).path, "CMakeLists.txt");
+  const auto calibrate = parseAs<CalibrateOptions>(
+      {"model", "calibrate", "CMakeLists.txt", "--targets", "README.md", "-o", "out.osim"});
+  EXPECT_EQ(calibrate.path, "CMakeLists.txt");
+  EXPECT_EQ(calibrate.targets, "README.md");
+  EXPECT_EQ(calibrate.out, "out.osim");
+  EXPECT_EQ(parseAs<CalibrateOptions>({"model", "calibrate"}).path, "");
   EXPECT_EQ(parseAs<SampleOptionsOnDisk>({"sample", "--out", "d", "--truth"}).content,
             SampleOptionsOnDisk::Content::kWithTruth);
   parseAs<VersionOptions>({"version"});
@@ -98,6 +104,7 @@ TEST(CommandLine, HelpIsEverywhereAndStatesTheExitCodes) {
                                                     {"keys", "--help"},
                                                     {"run", "--help"},
                                                     {"model", "--help"},
+                                                    {"model", "calibrate", "--help"},
                                                     {"sample", "--help"},
                                                     {"version", "--help"}}) {
     const auto help = parseAs<PrintAndExit>(arguments);
