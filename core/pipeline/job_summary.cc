@@ -83,18 +83,18 @@ Json summarizeRra(const RraResult& rra) {
 
 Json summarizeSubject(const Job& job) {
   const double mass = job.input->mass > 0 ? job.input->mass : job.adjusted.calcTotalMass();
-  return {{"mass_kg", toJson(mass)},
+  return {{"mass_kg", toJsonNumber(mass)},
           {"height_m", job.input->height > 0 ? Json(job.input->height) : Json(nullptr)}};
 }
 
 Json summarizeWork(const WorkBalance& work) {
   return {{"interval_s", {work.start, work.end}},
-          {"muscles_j", toJson(work.muscles)},
-          {"actuators_j", toJson(work.actuators)},
-          {"residuals_j", toJson(work.residuals)},
-          {"ground_reactions_j", toJson(work.ground)},
-          {"energy_change_j", toJson(work.energy_change)},
-          {"imbalance_j", toJson(work.imbalance())}};
+          {"muscles_j", toJsonNumber(work.muscles)},
+          {"actuators_j", toJsonNumber(work.actuators)},
+          {"residuals_j", toJsonNumber(work.residuals)},
+          {"ground_reactions_j", toJsonNumber(work.ground)},
+          {"energy_change_j", toJsonNumber(work.energy_change)},
+          {"imbalance_j", toJsonNumber(work.imbalance())}};
 }
 
 Json summarizeEvents(const std::vector<GaitEvent>& events) {
