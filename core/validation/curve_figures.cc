@@ -10,6 +10,7 @@
 #include "core/base/units.h"
 #include "core/muscle/muscle.h"
 #include "core/muscle/muscle_curves.h"
+#include "core/validation/muscle_title.h"
 #include "core/validation/posed_muscles.h"
 #include "core/validation/series.h"
 
@@ -54,7 +55,7 @@ Sampling lengthRange(const MuscleCurvesSpec& spec) {
 }
 
 Sampling tendonRange(const MuscleCurvesSpec& spec) {
-  return {0, 1.1 * spec.tendon_strain_at_one_force};
+  return {-0.1 * spec.tendon_strain_at_one_force, 1.1 * spec.tendon_strain_at_one_force};
 }
 
 Guide makeGuide(double value, const std::string& label) {
@@ -89,16 +90,14 @@ Panel makeNormalisedLengthPanel(const MuscleCurvesSpec& spec, const MuscleCurves
   panel.title = "Fiber force against length";
   panel.x = {"Normalised fiber length", ""};
   panel.y = {"Normalised fiber force", "", 0.0, 1.5};
-  panel.series = {sample("active, activation 1",
-                         SeriesRole::kActive,
-                         lengthRange(spec),
-                         valueOf(curves.active_force_length)),
-                  sample("passive",
-                         SeriesRole::kPassive,
-                         lengthRange(spec),
-                         valueOf(curves.passive_force_length))};
+  panel.series = {
+      sample("active", SeriesRole::kActive, lengthRange(spec), valueOf(curves.active_force_length)),
+      sample("passive",
+             SeriesRole::kPassive,
+             lengthRange(spec),
+             valueOf(curves.passive_force_length))};
   panel.guides = {makeGuide(1, "optimal")};
-  panel.note = "Active force between " + formatFixed(spec.active_min_length, 2) + " and " +
+  panel.note = "Active from " + formatFixed(spec.active_min_length, 2) + " to " +
                formatFixed(spec.active_max_length, 2) + "; passive force 1 at " +
                formatFixed(1 + spec.passive_strain_at_one_force, 2);
   return panel;
@@ -108,12 +107,12 @@ Panel makeNormalisedVelocityPanel(const MuscleCurvesSpec& spec, const MuscleCurv
   Panel panel;
   panel.name = "force_velocity";
   panel.title = "Fiber force against velocity";
-  panel.x = {"Normalised fiber velocity, lengthening positive", ""};
+  panel.x = {"Normalised fiber velocity", ""};
   panel.y = {"Normalised fiber force", "", 0.0, 1.5};
-  panel.series = {sample(
-      "active, activation 1", SeriesRole::kActive, {-1.1, 1.1}, valueOf(curves.force_velocity))};
+  panel.series = {
+      sample("active", SeriesRole::kActive, {-1.1, 1.1}, valueOf(curves.force_velocity))};
   panel.guides = {makeGuide(0, "isometric")};
-  panel.note = "Largest force while lengthening " + formatFixed(spec.max_eccentric_force, 2);
+  panel.note = "Largest while lengthening " + formatFixed(spec.max_eccentric_force, 2);
   return panel;
 }
 
@@ -151,7 +150,7 @@ Panel makeLengthPanel(const MuscleView& view) {
   panel.title = "Fiber force against length";
   panel.x = {"Fiber length", "cm"};
   panel.y = {"Fiber force", "N", 0.0, 1.5 * view.spec.max_isometric_force};
-  panel.series = {sample("active, activation 1", SeriesRole::kActive, range, valueOf(active)),
+  panel.series = {sample("active", SeriesRole::kActive, range, valueOf(active)),
                   sample("passive", SeriesRole::kPassive, range, valueOf(passive)),
                   sample("sum", SeriesRole::kPlain, range, [&](double x) {
                     return active.calc(x).value + passive.calc(x).value;
@@ -164,10 +163,10 @@ Panel makeVelocityPanel(const MuscleView& view) {
   Panel panel;
   panel.name = "force_velocity";
   panel.title = "Fiber force against velocity";
-  panel.x = {"Fiber velocity, lengthening positive", "cm/s"};
+  panel.x = {"Fiber velocity", "cm/s"};
   panel.y = {"Fiber force", "N", 0.0};
   panel.series = {
-      sample("active, activation 1, optimal length",
+      sample("active",
              SeriesRole::kActive,
              {-1.1, 1.1, 100 * view.muscle.maxFiberSpeed(), view.spec.max_isometric_force},
              valueOf(view.curves.force_velocity))};
@@ -242,7 +241,7 @@ Figure makeForceLengthVelocityFigure(const ModelSpec& model) {
   figure.caption =
       "Normalised curves of the muscle model (Millard et al. 2013; Figure 3 of Rajagopal et al. "
       "2016): force over maximum isometric force, length over optimal fiber length, velocity over "
-      "maximum contraction velocity. " +
+      "maximum contraction velocity, lengthening positive; active force at activation 1. " +
       std::to_string(common.count) + " of the model's " + std::to_string(model.muscles.size()) +
       " muscles have these curves.";
   figure.columns = 3;
@@ -259,9 +258,11 @@ Figure makeMuscleCurvesFigure(const ModelSpec& model, MuscleIndex muscle) {
   const MuscleView view{spec, curves, built.front()};
   Figure figure;
   figure.name = "muscle_curves_" + spec.name;
-  figure.title = "Curves of " + spec.name;
+  figure.title = "Curves of " + makeSidedTitle(spec.name);
   figure.caption = describeParameters(spec) +
-                   " In the last panel fiber and tendon are in equilibrium at zero velocity.";
+                   " Fiber forces are those at activation 1, the one against velocity at optimal "
+                   "fiber length with lengthening positive; in the last panel fiber and tendon are "
+                   "in equilibrium at zero velocity.";
   figure.panels = {makeLengthPanel(view), makeVelocityPanel(view)};
   if (spec.tendon != TendonKind::kRigid) {
     figure.panels.push_back(makeTendonPanel(view));

@@ -6,6 +6,7 @@
 
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/validation/muscle_title.h"
 #include "core/validation/posed_muscles.h"
 #include "core/validation/series.h"
 #include "core/validation/side.h"
@@ -38,7 +39,7 @@ const std::vector<ArmPanel>& armPanels() {
   static const std::vector<ArmPanel> panels = {
       {ArmJoint::kKnee,
        "recfem_vasint",
-       "Rectus femoris, vastus intermedius",
+       "1a  Rectus femoris, vastus intermedius",
        "Knee extension moment arm",
        "knee_angle",
        -1,
@@ -49,7 +50,7 @@ const std::vector<ArmPanel>& armPanels() {
        {"recfem", "vasint"}},
       {ArmJoint::kKnee,
        "vaslat_vasmed",
-       "Vastus lateralis, vastus medialis",
+       "1b  Vastus lateralis, vastus medialis",
        "Knee extension moment arm",
        "knee_angle",
        -1,
@@ -60,7 +61,7 @@ const std::vector<ArmPanel>& armPanels() {
        {"vaslat", "vasmed"}},
       {ArmJoint::kKnee,
        "bflh_bfsh",
-       "Biceps femoris",
+       "1c  Biceps femoris",
        "Knee flexion moment arm",
        "knee_angle",
        1,
@@ -71,7 +72,7 @@ const std::vector<ArmPanel>& armPanels() {
        {"bflh", "bfsh"}},
       {ArmJoint::kKnee,
        "semimem_semiten",
-       "Semimembranosus, semitendinosus",
+       "1d  Semimembranosus, semitendinosus",
        "Knee flexion moment arm",
        "knee_angle",
        1,
@@ -82,7 +83,7 @@ const std::vector<ArmPanel>& armPanels() {
        {"semimem", "semiten"}},
       {ArmJoint::kKnee,
        "grac_sart",
-       "Gracilis, sartorius",
+       "1e  Gracilis, sartorius",
        "Knee flexion moment arm",
        "knee_angle",
        1,
@@ -93,7 +94,7 @@ const std::vector<ArmPanel>& armPanels() {
        {"grac", "sart"}},
       {ArmJoint::kKnee,
        "gaslat_gasmed",
-       "Gastrocnemius at the knee",
+       "1f  Gastrocnemius at the knee",
        "Knee flexion moment arm",
        "knee_angle",
        1,
@@ -104,7 +105,7 @@ const std::vector<ArmPanel>& armPanels() {
        {"gaslat", "gasmed"}},
       {ArmJoint::kAnkle,
        "tibant",
-       "Tibialis anterior",
+       "1g  Tibialis anterior",
        "Ankle dorsiflexion moment arm",
        "ankle_angle",
        1,
@@ -115,7 +116,7 @@ const std::vector<ArmPanel>& armPanels() {
        {"tibant"}},
       {ArmJoint::kAnkle,
        "gaslat_gasmed_soleus",
-       "Triceps surae",
+       "1h  Triceps surae",
        "Ankle plantarflexion moment arm",
        "ankle_angle",
        -1,
@@ -126,7 +127,7 @@ const std::vector<ArmPanel>& armPanels() {
        {"gaslat", "gasmed", "soleus"}},
       {ArmJoint::kHip,
        "glmax_extension",
-       "Gluteus maximus",
+       "2a  Gluteus maximus",
        "Hip extension moment arm",
        "hip_flexion",
        -1,
@@ -137,7 +138,7 @@ const std::vector<ArmPanel>& armPanels() {
        gluteus_maximus},
       {ArmJoint::kHip,
        "glmed_extension",
-       "Gluteus medius",
+       "2b  Gluteus medius",
        "Hip extension moment arm",
        "hip_flexion",
        -1,
@@ -148,7 +149,7 @@ const std::vector<ArmPanel>& armPanels() {
        gluteus_medius},
       {ArmJoint::kHip,
        "glmax_adduction",
-       "Gluteus maximus",
+       "2c  Gluteus maximus",
        "Hip adduction moment arm",
        "hip_adduction",
        1,
@@ -159,7 +160,7 @@ const std::vector<ArmPanel>& armPanels() {
        gluteus_maximus},
       {ArmJoint::kHip,
        "glmed_adduction",
-       "Gluteus medius",
+       "2d  Gluteus medius",
        "Hip adduction moment arm",
        "hip_adduction",
        1,
@@ -170,7 +171,7 @@ const std::vector<ArmPanel>& armPanels() {
        gluteus_medius},
       {ArmJoint::kHip,
        "glmax_rotation",
-       "Gluteus maximus",
+       "2e  Gluteus maximus",
        "Hip internal rotation moment arm",
        "hip_rotation",
        1,
@@ -181,7 +182,7 @@ const std::vector<ArmPanel>& armPanels() {
        gluteus_maximus},
       {ArmJoint::kHip,
        "glmed_rotation",
-       "Gluteus medius",
+       "2f  Gluteus medius",
        "Hip internal rotation moment arm",
        "hip_rotation",
        1,
@@ -192,7 +193,7 @@ const std::vector<ArmPanel>& armPanels() {
        gluteus_medius},
       {ArmJoint::kHip,
        "psoas_flexion",
-       "Psoas",
+       "2g  Psoas",
        "Hip flexion moment arm",
        "hip_flexion",
        1,
@@ -203,7 +204,7 @@ const std::vector<ArmPanel>& armPanels() {
        {"psoas"}},
       {ArmJoint::kHip,
        "semimem_semiten_flexion",
-       "Semimembranosus, semitendinosus",
+       "2h  Semimembranosus, semitendinosus",
        "Hip flexion moment arm",
        "hip_flexion",
        1,
@@ -247,7 +248,8 @@ Panel makePanel(PosedMuscles& posed, const ArmPanel& shown) {
   panel.x = {shown.abscissa, "deg"};
   panel.y = {shown.ordinate, "cm"};
   for (const MuscleIndex m : muscles) {
-    panel.series.push_back(makeSeries(spec.muscles[static_cast<std::size_t>(m.value())].name));
+    panel.series.push_back(
+        makeSeries(makeMuscleTitle(spec.muscles[static_cast<std::size_t>(m.value())].name)));
   }
   for (const double angle :
        makeSweep(*spec.findCoordinate(varied), shown.low_deg, shown.high_deg)) {

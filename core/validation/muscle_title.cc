@@ -1,5 +1,7 @@
 #include "core/validation/muscle_title.h"
 
+#include "core/figure/muscle_names.h"
+
 namespace gaitmill {
 
 std::string findMuscleBase(const std::string& muscle) {
@@ -10,7 +12,14 @@ std::string findMuscleBase(const std::string& muscle) {
 }
 
 std::string makeMuscleTitle(const std::string& muscle) {
-  return findMuscleBase(muscle);
+  return findMuscleName(findMuscleBase(muscle)).display;
+}
+
+std::string makeSidedTitle(const std::string& muscle) {
+  if (findMuscleBase(muscle) == muscle) {
+    return makeMuscleTitle(muscle);
+  }
+  return makeMuscleTitle(muscle) + (muscle.back() == 'r' ? " (right)" : " (left)");
 }
 
 }  // namespace gaitmill

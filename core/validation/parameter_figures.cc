@@ -88,9 +88,16 @@ const std::vector<Quantity>& quantities() {
   return all;
 }
 
-void addBar(Series& series, const std::string& muscle, double value) {
-  series.categories.push_back(makeMuscleTitle(muscle));
+void addBar(Series& series, const std::string& category, double value) {
+  series.categories.push_back(category);
   series.y.push_back(value);
+}
+
+// As in Table II, an asterisk marks the slack length of a rigid tendon.
+std::string makeCategory(const MuscleSpec& muscle, const Quantity& quantity) {
+  const bool is_marked =
+      quantity.printed == &PublishedParameters::slack_cm && muscle.tendon == TendonKind::kRigid;
+  return makeMuscleTitle(muscle.name) + (is_marked ? " *" : "");
 }
 
 // "Beyond the print's rounding: rectus femoris +0.3 cm" or that there is none.
@@ -105,7 +112,7 @@ std::string describeDifferences(const std::vector<ParameterRow>& rows, const Qua
     const double printed = (row.published->*quantity.printed).mean;
     const double difference = quantity.own(*row.muscle) - printed;
     if (std::abs(difference) > 1.001 * quantity.rounding) {
-      list += (list.empty() ? "" : ", ") + makeMuscleTitle(row.muscle->name) +
+      list += (list.empty() ? "" : "; ") + makeMuscleTitle(row.muscle->name) +
               (difference > 0 ? " +" : " ") + formatFixed(difference, quantity.decimals + 1);
     }
   }
@@ -124,9 +131,10 @@ Panel makeParameterPanel(const std::vector<ParameterRow>& rows, const Quantity& 
   Series own = makeSeries("this model", SeriesRole::kSimulated, SeriesMark::kBars);
   Series printed = makeSeries("Rajagopal et al. 2016", SeriesRole::kReference, SeriesMark::kBars);
   for (const ParameterRow& row : rows) {
-    addBar(own, row.muscle->name, quantity.own(*row.muscle));
+    const std::string category = makeCategory(*row.muscle, quantity);
+    addBar(own, category, quantity.own(*row.muscle));
     addBar(printed,
-           row.muscle->name,
+           category,
            row.published == nullptr ? kNone : (row.published->*quantity.printed).mean);
   }
   panel.series = {own, printed};
@@ -141,7 +149,7 @@ Series makeBars(const std::vector<ParameterSpread>& rows,
                 const std::function<double(const ParameterSpread&)>& value) {
   Series series = makeSeries(name, role, SeriesMark::kBars);
   for (const ParameterSpread& row : rows) {
-    addBar(series, row.muscle, value(row));
+    addBar(series, makeMuscleTitle(row.muscle), value(row));
   }
   return series;
 }
@@ -155,7 +163,7 @@ std::string listPredictions(const std::vector<ParameterSpread>& rows,
   std::string list;
   for (const ParameterSpread& row : rows) {
     if (row.*is_prediction) {
-      list += (list.empty() ? "" : ", ") + makeMuscleTitle(row.muscle) + " " +
+      list += (list.empty() ? "" : "; ") + makeMuscleTitle(row.muscle) + " " +
               formatFixed(value(row), decimals) + " (printed " +
               formatFixed(printed(row), decimals) + ")";
     }
@@ -181,8 +189,8 @@ Panel makeForcePanel(const std::vector<ParameterSpread>& rows) {
   panel.y = {"Standard deviation over mean", "%", 0.0};
   panel.series = {
       makeBars(rows, "printed", SeriesRole::kReference, printed),
-      makeBars(rows, "recomputed: volume and fiber length", SeriesRole::kSimulated, recomputed),
-      makeBars(rows, "of it, fiber length", SeriesRole::kPassive, [](const ParameterSpread& r) {
+      makeBars(rows, "recomputed", SeriesRole::kSimulated, recomputed),
+      makeBars(rows, "from fiber length alone", SeriesRole::kPassive, [](const ParameterSpread& r) {
         return percentOf(r.published->fiber_cm.sd, r.published->fiber_cm.mean);
       })};
   panel.note =
@@ -213,9 +221,9 @@ std::string describeMonteCarlo(const std::vector<ParameterSpread>& rows,
   if (count == 0) {
     return "";
   }
-  return std::to_string(options.draws) + " draws per muscle, seed " + std::to_string(options.seed) +
-         "; rejected " + formatFixed(100 * rejected / count, 2) + " % of the draws, at most " +
-         formatFixed(100 * most, 1) + " % (" + worst + "). ";
+  return "Monte Carlo of " + std::to_string(options.draws) + " draws per muscle, seed " +
+         std::to_string(options.seed) + "; rejected " + formatFixed(100 * rejected / count, 2) +
+         " % of the draws, at most " + formatFixed(100 * most, 1) + " % (" + worst + "). ";
 }
 
 std::string describeSlackDifferences(const std::vector<ParameterSpread>& rows) {
@@ -226,7 +234,7 @@ std::string describeSlackDifferences(const std::vector<ParameterSpread>& rows) {
     const double printed = 0.01 * row.published->slack_cm.sd;
     const double ratio = row.slack.sd / printed - 1;
     if (std::abs(ratio) > kRemarkable) {
-      list += (list.empty() ? "" : ", ") + makeMuscleTitle(row.muscle) + " " +
+      list += (list.empty() ? "" : "; ") + makeMuscleTitle(row.muscle) + " " +
               (ratio > 0 ? "+" : "") + formatFixed(100 * ratio, 0) + " %";
     }
   }
@@ -246,9 +254,9 @@ Panel makeSlackPanel(const std::vector<ParameterSpread>& rows, const ValidationO
   panel.title = "Spread of tendon slack length";
   panel.y = {"Standard deviation", "cm", 0.0};
   panel.series = {makeBars(rows, "printed", SeriesRole::kReference, printed),
-                  makeBars(rows, "Monte Carlo", SeriesRole::kSimulated, recomputed),
+                  makeBars(rows, "recomputed", SeriesRole::kSimulated, recomputed),
                   makeBars(rows,
-                           "without spread of normalised fiber length",
+                           "from fiber length and pennation alone",
                            SeriesRole::kPassive,
                            [](const ParameterSpread& r) { return 100 * r.slack_by_fiber.sd; })};
   panel.note =
@@ -269,7 +277,7 @@ Panel makePennationPanel(const std::vector<ParameterSpread>& rows) {
                SeriesRole::kReference,
                [](const ParameterSpread& r) { return r.published->pennation_deg.sd; }),
       makeBars(rows,
-               "of it, normalised fiber length",
+               "from normalised fiber length alone",
                SeriesRole::kPassive,
                [](const ParameterSpread& r) { return toDegrees(r.pennation_by_length); })};
   panel.note =
@@ -283,14 +291,14 @@ Panel makeInputPanel(const std::vector<ParameterSpread>& rows) {
   panel.name = "inferred_inputs";
   panel.title = "Inputs inferred";
   panel.y = {"Standard deviation over mean", "%", 0.0};
-  panel.series = {
-      makeBars(rows,
-               "volume fraction",
-               SeriesRole::kPlain,
-               [](const ParameterSpread& r) { return 100 * r.volume_cv; }),
-      makeBars(rows, "normalised fiber length", SeriesRole::kPlain, [](const ParameterSpread& r) {
-        return 100 * r.norm_length_cv;
-      })};
+  panel.series = {makeBars(rows,
+                           "volume fraction",
+                           SeriesRole::kPlain,
+                           [](const ParameterSpread& r) { return 100 * r.volume_cv; }),
+                  makeBars(rows,
+                           "inferred, normalised fiber length",
+                           SeriesRole::kPlain,
+                           [](const ParameterSpread& r) { return 100 * r.norm_length_cv; })};
   panel.note =
       "So that the formulas give the printed spreads of one compartment of each measured muscle.";
   return panel;
@@ -308,7 +316,7 @@ Figure makeParameterFigure(const ModelSpec& model) {
       "fiber length of each muscle of the right leg, beside the values that Rajagopal et al. "
       "(2016) "
       "print for the generic model (Supplemental Table I; Table II differs from it in the last "
-      "digit of three slack lengths).";
+      "digit of three slack lengths). * rigid tendon.";
   figure.columns = 1;
   for (const Quantity& quantity : quantities()) {
     figure.panels.push_back(makeParameterPanel(rows, quantity));

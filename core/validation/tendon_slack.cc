@@ -140,8 +140,8 @@ double solveTendonStretch(const QuinticCurve& tendon_force_length, double force)
   if (force >= end.value) {
     return high + (force - end.value) / end.slope;
   }
-  // Newton steps from above, where the curve is steep, inside a bracket.
-  double x = high;
+  // Newton steps inside a bracket, from where a parabola through the toe has this force.
+  double x = low + (high - low) * std::sqrt(force / end.value);
   for (int step = 0; step < kMaxSteps; ++step) {
     const CurvePoint at = tendon_force_length.calc(x);
     const double error = at.value - force;

@@ -5,8 +5,10 @@
 
 #include "core/base/error.h"
 #include "core/validation/curve_figures.h"
+#include "core/validation/fiber_length_figure.h"
 #include "core/validation/isometric_figure.h"
 #include "core/validation/moment_arm_figures.h"
+#include "core/validation/muscle_title.h"
 #include "core/validation/parameter_figures.h"
 
 namespace gaitmill {
@@ -62,6 +64,13 @@ const std::vector<FigureKind>& figureKinds() {
        [](const ModelSpec& model, const ValidationOptions&) {
          return makeForceLengthVelocityFigure(model);
        }},
+      {{"fiber_lengths_gait",
+        "Fiber lengths over a gait cycle",
+        "Normalised fiber lengths of the right leg while walking, muscles at rest."},
+       hasFiberLengthFigure,
+       [](const ModelSpec& model, const ValidationOptions&) {
+         return makeFiberLengthFigure(model);
+       }},
       {{"parameters",
         "Muscle parameters",
         "Maximum force, fiber length, slack length and pennation beside the printed values."},
@@ -91,7 +100,7 @@ std::vector<FigureInfo> listValidationFigures(const ModelSpec& model) {
   }
   for (const MuscleSpec& muscle : model.muscles) {
     infos.push_back({kCurvesPrefix + muscle.name,
-                     "Curves of " + muscle.name,
+                     "Curves of " + makeSidedTitle(muscle.name),
                      "Force-length, force-velocity and tendon curves of one muscle."});
   }
   return infos;

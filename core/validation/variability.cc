@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "core/base/error.h"
 #include "core/base/units.h"
 
 namespace gaitmill {
@@ -12,6 +13,10 @@ namespace gaitmill {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+// Fewer say nothing about a spread; more take longer than a request should.
+constexpr int kFewestDraws = 100;
+constexpr int kMostDraws = 100000;
 
 double square(double x) {
   return x * x;
@@ -137,6 +142,10 @@ double calcPennationSpread(double pennation_at_optimal,
 
 std::vector<ParameterSpread> calcParameterSpreads(const ModelSpec& model,
                                                   const ValidationOptions& options) {
+  require(options.draws >= kFewestDraws && options.draws <= kMostDraws,
+          ErrorCode::kInputValue,
+          "the number of Monte Carlo draws is " + std::to_string(options.draws) + ", not in " +
+              std::to_string(kFewestDraws) + " to " + std::to_string(kMostDraws));
   std::vector<ParameterSpread> rows;
   std::map<std::string, double> volume_cv;
   std::map<std::string, double> norm_length_cv;

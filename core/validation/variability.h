@@ -71,7 +71,8 @@ struct ParameterSpread {
   double pennation_by_length = 0;  ///< [rad] part of sigma_alpha_o due to sigma_l~
 };
 
-/// The muscles of the model's right leg that the table has. @throws Error as calibrateTendonSlack
+/// The muscles of the model's right leg that the table has.
+/// @throws Error as calibrateTendonSlack; kInputValue if the number of draws is out of range
 std::vector<ParameterSpread> calcParameterSpreads(const ModelSpec& model,
                                                   const ValidationOptions& options);
 

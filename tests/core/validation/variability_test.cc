@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/error.h"
 #include "core/base/units.h"
 #include "tests/support/model_files.h"
 #include "tests/support/tolerance.h"
@@ -186,6 +187,19 @@ TEST(Variability, MonteCarloReproducesThePrintedSlackSpreadsItWasInferredFrom) {
     if (!std::isnan(row.published->slack_cm.sd) && !row.is_prediction_of_slack) {
       EXPECT_NEAR(100 * row.slack.sd, row.published->slack_cm.sd, tol(0.07)) << row.muscle;
       EXPECT_LT(row.slack.rejected, 0.04 * row.slack.draws) << row.muscle;
+    }
+  }
+}
+
+TEST(Variability, RefusesSenselessNumbersOfDraws) {
+  ValidationOptions options;
+  for (const int draws : {-1, 0, 99, 100001}) {
+    options.draws = draws;
+    try {
+      calcParameterSpreads(readOwnModel(), options);
+      ADD_FAILURE() << draws;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kInputValue);
     }
   }
 }
