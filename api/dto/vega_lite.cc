@@ -21,11 +21,14 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kSchema = "https://vega.github.io/schema/vega-lite/v5.json";
-constexpr double kWidth = 960;     // of all panels side by side [px]
-constexpr double kAround = 62;     // of a panel beside its plot: axis and gap [px]
-constexpr double kNarrow = 230;    // below this a plot has no room for labels of guides [px]
-constexpr double kTitleSize = 12;  // of panels [px]
-constexpr double kNoteSize = 10;   // [px]
+constexpr double kWidth = 960;         // of all panels side by side [px]
+constexpr double kAround = 62;         // of a panel beside its plot: axis and gap [px]
+constexpr double kCaptionWidth = 720;  // programs without fonts take texts for wider [px]
+constexpr double kBelow = 42;          // of a panel below its plot: axis and gap [px]
+constexpr double kNarrow = 230;        // below this a plot has no room for labels of guides [px]
+constexpr double kTitleSize = 12;      // of panels [px]
+constexpr double kNoteSize = 10;       // [px]
+constexpr double kTitleLine = 14;      // from one line of a title to the next [px]
 constexpr const char* kGuide = "#555555";
 constexpr const char* kQuiet = "#555555";
 
@@ -110,7 +113,7 @@ class PanelView {
             {"title", makeAxisTitle(panel_.x)},
             {"scale",
              {{"domain", {toAbscissa(low), toAbscissa(high)}}, {"nice", false}, {"zero", false}}},
-            {"axis", {{"tickCount", width_ > 240 ? 8 : 4}, {"grid", false}}}};
+            {"axis", {{"values", makeTicks({low, high}, width_ > 240 ? 8 : 4)}, {"grid", false}}}};
   }
 
   json yEncoding(const std::string& field) const {
@@ -124,7 +127,7 @@ class PanelView {
              {{"domain", {toOrdinate(range.low), toOrdinate(range.high)}},
               {"nice", false},
               {"zero", false}}},
-            {"axis", {{"tickCount", ticks}}}};
+            {"axis", {{"values", makeTicks(range, ticks)}}}};
   }
 
   json colorEncoding(json source) const {
@@ -132,6 +135,8 @@ class PanelView {
     source["title"] = nullptr;
     if (!has_legend_) {
       source["legend"] = nullptr;
+    } else if (hasBars()) {
+      source["legend"] = {{"symbolType", "square"}, {"symbolSize", 100}, {"symbolStrokeWidth", 0}};
     }
     return source;
   }
@@ -288,6 +293,25 @@ class PanelView {
   double height_;
 };
 
+/// Room for the axis of a row and for the titles of the next. It is stated, because programs
+/// without fonts would guess it from the length of texts.
+double findRowSpacing(const Figure& figure, const std::vector<LegendEntry>& shared, double width) {
+  double lines = 0;
+  double categories = 0;
+  for (const Panel& panel : figure.panels) {
+    const double own =
+        kTitleLine * static_cast<double>(wrapText(panel.title, kTitleSize, width + 40).size() +
+                                         wrapText(panel.note, kNoteSize, width + 40).size());
+    lines = std::max(lines, own + (shared.empty() && panel.series.size() > 1 ? 40 : 0));
+    for (const Series& series : panel.series) {
+      for (const std::string& category : series.categories) {
+        categories = std::max(categories, 0.8 * estimateTextWidth(category, kNoteSize));
+      }
+    }
+  }
+  return kBelow + lines + categories;
+}
+
 json renderConfig() {
   return {{"font", "Helvetica, Arial, sans-serif"},
           {"background", "white"},
@@ -384,23 +408,25 @@ std::string renderVegaLite(const Figure& figure) {
             .render());
   }
   const char* legends = shared.empty() ? "independent" : "shared";
-  return dumpJson({{"$schema", kSchema},
-                   {"title",
-                    {{"text", figure.title},
-                     {"subtitle", wrapText(figure.caption, 11, kWidth)},
-                     {"anchor", "start"},
-                     {"fontSize", 16},
-                     {"subtitleFontSize", 11},
-                     {"subtitleColor", kQuiet},
-                     {"offset", 14}}},
-                   {"description", figure.caption},
-                   {"columns", columns},
-                   {"spacing", 14},
-                   {"concat", panels},
-                   {"resolve",
-                    {{"scale", {{"color", legends}, {"strokeDash", legends}}},
-                     {"legend", {{"color", legends}, {"strokeDash", legends}}}}},
-                   {"config", renderConfig()}});
+  return dumpJson(
+      {{"$schema", kSchema},
+       {"title",
+        {{"text", figure.title},
+         {"subtitle", wrapText(figure.caption, 11, kCaptionWidth)},
+         {"anchor", "start"},
+         {"fontSize", 16},
+         {"subtitleFontSize", 11},
+         {"subtitleColor", kQuiet},
+         {"offset", 14}}},
+       {"description", figure.caption},
+       {"columns", columns},
+       {"bounds", "flush"},
+       {"spacing", {{"column", kAround}, {"row", findRowSpacing(figure, shared, width)}}},
+       {"concat", panels},
+       {"resolve",
+        {{"scale", {{"color", legends}, {"strokeDash", legends}}},
+         {"legend", {{"color", legends}, {"strokeDash", legends}}}}},
+       {"config", renderConfig()}});
 }
 
 std::string renderFigureData(const Figure& figure) {

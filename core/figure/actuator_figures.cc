@@ -39,6 +39,16 @@ double findPeak(const TimeSeries& table, const std::string& label) {
   return column ? table.values.col(*column).cwiseAbs().maxCoeff() : 0.0;
 }
 
+/// "Peaks over the trial: FX 2.93, FY 5.06, FZ 2.17 N"
+std::string describePeaks(const TimeSeries& residuals, const ResidualPanel& plan) {
+  std::string peaks;
+  for (const auto& [column, name] : plan.columns) {
+    peaks += std::string(peaks.empty() ? "" : ", ") + column + " " +
+             formatShort(findPeak(residuals, column));
+  }
+  return "Peaks over the trial: " + peaks + " " + plan.unit;
+}
+
 /// Name of the coordinate that a reserve acts on: "hip_flexion" of "hip_flexion_reserve".
 std::string findCoordinate(const std::string& base) {
   const std::string suffix = "_reserve";
@@ -114,6 +124,7 @@ void buildResiduals(const JobData& data, Figure& figure) {
       panel.guides.push_back({Guide::Direction::kHorizontal, -panel.guides.front().value, ""});
     }
     data.addToeOffs(true, false, panel);
+    panel.note = describePeaks(residuals, plan);
     figure.panels.push_back(std::move(panel));
   }
   figure.caption += " " + data.describeAxis();

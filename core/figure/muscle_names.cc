@@ -30,11 +30,12 @@ const char* groupName(MuscleGroup group) {
 SidedName splitSide(const std::string& name) {
   for (const BodySide side : {BodySide::kRight, BodySide::kLeft}) {
     const std::string mark = std::string("_") + sideLetter(side);
-    const std::size_t place = name.rfind(mark);
-    const bool is_part = place != std::string::npos && place > 0 &&
-                         (place + mark.size() == name.size() || name[place + mark.size()] == '_');
-    if (is_part) {
-      return {name.substr(0, place) + name.substr(place + mark.size()), side};
+    for (std::size_t place = name.find(mark); place != std::string::npos;
+         place = name.find(mark, place + 1)) {
+      const std::size_t end = place + mark.size();
+      if (place > 0 && (end == name.size() || name[end] == '_')) {
+        return {name.substr(0, place) + name.substr(end), side};
+      }
     }
   }
   return {name, BodySide::kNone};

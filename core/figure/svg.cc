@@ -14,8 +14,9 @@ namespace gaitmill {
 
 namespace {
 
-constexpr double kGap = 14;         // between panels [px]
+constexpr double kGap = 8;          // between panels [px]
 constexpr double kAxisLeft = 48;    // tick labels and axis title left of the plot [px]
+constexpr double kRight = 12;       // beside the plot, for half a tick label [px]
 constexpr double kLine = 14;        // from one line of text to the next [px]
 constexpr double kTextSize = 11;    // [px]
 constexpr double kSmallSize = 9.5;  // tick labels, notes, guides [px]
@@ -104,7 +105,7 @@ struct PanelPlan {
   double plot_height = 0;
   double bottom = 0;  ///< [px] tick labels and axis title below the plot
 
-  double plotWidth() const { return width - kAxisLeft - 6; }
+  double plotWidth() const { return width - kAxisLeft - kRight; }
   double top() const {
     return kLine * toDouble(title.size()) + (kLine - 2) * toDouble(note.size()) +
            findHeight(legend) + 6;
@@ -199,7 +200,7 @@ class PanelPainter {
     canvas_.addRectangle(corner_, size_, std::string("fill=\"none\" stroke=\"") + kFrame + "\"");
     if (plan_.has_y_title) {
       canvas_.addText(
-          {corner_.x - kAxisLeft + 9, corner_.y + 0.5 * size_.y},
+          {corner_.x - kAxisLeft + 11, corner_.y + 0.5 * size_.y},
           makeAxisTitle(panel_.y),
           {fitSize(makeAxisTitle(panel_.y), size_.y + 30), "middle", kQuiet, false, -90});
     }

@@ -34,6 +34,7 @@ TEST(SplitSide, FindsTheLetterAtTheEndOrInside) {
   EXPECT_EQ(splitSide("soleus_r").side, BodySide::kRight);
   EXPECT_EQ(splitSide("knee_angle_l_moment").base, "knee_angle_moment");
   EXPECT_EQ(splitSide("knee_angle_l_moment").side, BodySide::kLeft);
+  EXPECT_EQ(splitSide("hip_flexion_r_reserve").base, "hip_flexion_reserve");
   EXPECT_EQ(splitSide("pelvis_rotation").side, BodySide::kNone);
   EXPECT_EQ(splitSide("lumbar_rotation").base, "lumbar_rotation");
 }

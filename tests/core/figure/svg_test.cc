@@ -61,9 +61,9 @@ TEST(Svg, NamesAxesWithUnits) {
   EXPECT_NE(svg.find("Moment [N·m]"), std::string::npos);
 }
 
-// Of one column of 960 px, the plot is 906 px wide and 230 px high; the window adds 2 px above.
+// Of one column of 960 px, the plot is 900 px wide and 230 px high; the window adds 2 px above.
 TEST(Svg, PutsPointsWhereTheyBelong) {
-  EXPECT_EQ(findPath(renderSvg(makeFigureOf(makeLine({0, 10, 5})))), "M0 232L453 2L906 117");
+  EXPECT_EQ(findPath(renderSvg(makeFigureOf(makeLine({0, 10, 5})))), "M0 232L450 2L900 117");
 }
 
 TEST(Svg, ANumberThatIsNoneInterruptsTheCurve) {
