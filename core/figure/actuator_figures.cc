@@ -114,7 +114,7 @@ void buildResiduals(const JobData& data, Figure& figure) {
     Panel panel = makePanel(data, plan.name, plan.title, {plan.title, plan.unit});
     panel.y.label.pop_back();
     for (const auto& [column, name] : plan.columns) {
-      data.addCurve(residuals, column, BodySide::kNone, {name, SeriesRole::kPlain, 1}, panel);
+      data.addCurve(residuals, column, Side::kNone, {name, SeriesRole::kPlain, 1}, panel);
     }
     if (panel.series.empty()) {
       continue;

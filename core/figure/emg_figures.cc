@@ -84,7 +84,7 @@ void scaleToActivation(Panel& panel) {
 }
 
 Panel makeChannelPanel(const JobData& data, const Channel& channel, const std::string& title) {
-  const BodySide side = splitSide(channel.muscles.front()).side;
+  const Side side = splitSide(channel.muscles.front()).side;
   Panel panel = makePanel(data, channel.name, title, {"Activation", "", 0.0, 1.0});
   data.addCurve(data.table("emg"),
                 channel.name,
@@ -97,7 +97,7 @@ Panel makeChannelPanel(const JobData& data, const Channel& channel, const std::s
                 {"simulated activation", SeriesRole::kSimulated, 1},
                 panel);
   scaleToActivation(panel);
-  data.addToeOffs(side != BodySide::kLeft, side == BodySide::kLeft, panel);
+  data.addToeOffs(side != Side::kLeft, side == Side::kLeft, panel);
   return panel;
 }
 
@@ -108,7 +108,7 @@ std::string nameMuscles(const std::vector<std::string>& muscles) {
   if (muscles.size() > 1) {
     name = name.substr(0, name.find(','));
   }
-  const std::string side = sideName(first.side);
+  const std::string side = sideWord(first.side);
   return side.empty() ? name : name + ", " + side;
 }
 

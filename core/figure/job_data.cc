@@ -97,8 +97,8 @@ std::vector<SidedColumns> pairSides(const std::vector<std::string>& labels) {
     });
     SidedColumns& pair =
         known != pairs.end() ? *known : pairs.emplace_back(SidedColumns{name.base, "", "", ""});
-    (name.side == BodySide::kRight  ? pair.right
-     : name.side == BodySide::kLeft ? pair.left
+    (name.side == Side::kRight  ? pair.right
+     : name.side == Side::kLeft ? pair.left
                                     : pair.center) = label;
   }
   return pairs;
@@ -162,8 +162,8 @@ void JobData::readCycles() {
   }
 }
 
-const JobData::SideCycles& JobData::cyclesOf(BodySide side) const {
-  return side == BodySide::kLeft && left_.main ? left_ : right_;
+const JobData::SideCycles& JobData::cyclesOf(Side side) const {
+  return side == Side::kLeft && left_.main ? left_ : right_;
 }
 
 bool JobData::has(const std::string& name) const {
@@ -204,7 +204,7 @@ std::optional<double> JobData::findBodyWeight() const {
   return mass.is_number() ? std::optional<double>(kGravity * mass.get<double>()) : std::nullopt;
 }
 
-std::vector<GaitCycle> JobData::findCovered(const TimeSeries& table, BodySide side) const {
+std::vector<GaitCycle> JobData::findCovered(const TimeSeries& table, Side side) const {
   std::vector<GaitCycle> covered;
   for (const GaitCycle& cycle : cyclesOf(side).all) {
     if (table.time.front() <= cycle.start + kTimeTolerance &&
@@ -217,7 +217,7 @@ std::vector<GaitCycle> JobData::findCovered(const TimeSeries& table, BodySide si
 
 void JobData::addCurve(const TimeSeries& table,
                        const std::string& column,
-                       BodySide side,
+                       Side side,
                        const Curve& curve,
                        Panel& panel) const {
   const std::optional<int> index = table.findColumn(column);
@@ -273,13 +273,13 @@ void JobData::addSides(const TimeSeries& table,
                        double factor,
                        Panel& panel) const {
   addCurve(
-      table, columns.center, BodySide::kNone, {"trunk", SeriesRole::kReference, factor}, panel);
-  addCurve(table, columns.right, BodySide::kRight, {"right", SeriesRole::kRight, factor}, panel);
-  addCurve(table, columns.left, BodySide::kLeft, {"left", SeriesRole::kLeft, factor}, panel);
+      table, columns.center, Side::kNone, {"trunk", SeriesRole::kReference, factor}, panel);
+  addCurve(table, columns.right, Side::kRight, {"right", SeriesRole::kRight, factor}, panel);
+  addCurve(table, columns.left, Side::kLeft, {"left", SeriesRole::kLeft, factor}, panel);
 }
 
-double JobData::findToeOffPercent(BodySide side) const {
-  const SideCycles& cycles = side == BodySide::kLeft ? left_ : right_;
+double JobData::findToeOffPercent(Side side) const {
+  const SideCycles& cycles = side == Side::kLeft ? left_ : right_;
   double moved = kNaN;
   for (const double toe_off : cycles.main ? cycles.toe_offs : std::vector<double>{}) {
     const double percent = calcPercent(*cycles.main, toe_off);
@@ -302,8 +302,8 @@ void JobData::addToeOffs(bool right, bool left, Panel& panel) const {
     }
     return;
   }
-  const double right_percent = right ? findToeOffPercent(BodySide::kRight) : kNaN;
-  const double left_percent = left ? findToeOffPercent(BodySide::kLeft) : kNaN;
+  const double right_percent = right ? findToeOffPercent(Side::kRight) : kNaN;
+  const double left_percent = left ? findToeOffPercent(Side::kLeft) : kNaN;
   const bool alike = std::abs(right_percent - left_percent) < kAlike;
   if (!std::isnan(right_percent)) {
     add(right_percent, alike || !left ? "toe-off" : "right toe-off");

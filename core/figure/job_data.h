@@ -65,7 +65,7 @@ class JobData {
   /// its band of one standard deviation. A table without the column adds nothing.
   void addCurve(const TimeSeries& table,
                 const std::string& column,
-                BodySide side,
+                Side side,
                 const Curve& curve,
                 Panel& panel) const;
   /// Right, left and centre of a quantity in one panel, each in its role.
@@ -88,13 +88,13 @@ class JobData {
 
   void readCycles();
   void readEvents();
-  const SideCycles& cyclesOf(BodySide side) const;
-  std::vector<GaitCycle> findCovered(const TimeSeries& table, BodySide side) const;
+  const SideCycles& cyclesOf(Side side) const;
+  std::vector<GaitCycle> findCovered(const TimeSeries& table, Side side) const;
   void addMean(const std::vector<std::vector<double>>& cycles,
                const Curve& curve,
                Panel& panel) const;
   /// NaN if it is not known.
-  double findToeOffPercent(BodySide side) const;
+  double findToeOffPercent(Side side) const;
 
   const ResultSource& source_;
   std::unique_ptr<nlohmann::json> summary_;

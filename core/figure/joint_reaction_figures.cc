@@ -34,7 +34,7 @@ std::optional<int> findReaction(const TimeSeries& table,
 /// "<quantity>_r" and "<quantity>_l" of one joint [N]: resultant, forward, compression, lateral.
 TimeSeries calcReactions(const TimeSeries& reactions, const std::string& child) {
   TimeSeries table = makeEmptyTable(reactions);
-  for (const BodySide side : {BodySide::kRight, BodySide::kLeft}) {
+  for (const Side side : {Side::kRight, Side::kLeft}) {
     const std::string letter = std::string("_") + sideLetter(side);
     const std::optional<int> fx = findReaction(reactions, child + letter, "fx");
     const std::optional<int> fy = findReaction(reactions, child + letter, "fy");
@@ -45,7 +45,7 @@ TimeSeries calcReactions(const TimeSeries& reactions, const std::string& child) 
     const Eigen::VectorXd forward = reactions.values.col(*fx);
     const Eigen::VectorXd down = -reactions.values.col(*fy);
     const Eigen::VectorXd lateral =
-        (side == BodySide::kRight ? 1.0 : -1.0) * reactions.values.col(*fz);
+        (side == Side::kRight ? 1.0 : -1.0) * reactions.values.col(*fz);
     const Eigen::VectorXd resultant =
         (forward.array().square() + down.array().square() + lateral.array().square()).sqrt();
     addColumn("resultant" + letter, resultant, table);

@@ -78,7 +78,7 @@ std::string describeDifference(const Panel& panel) {
 /// Inverse dynamics against the muscles at one joint of one leg.
 Panel makeComparisonPanel(const JobData& data,
                           const std::string& coordinate,
-                          BodySide side,
+                          Side side,
                           const std::string& title,
                           double sign) {
   const TimeSeries& moments = data.table("moments");
@@ -93,7 +93,7 @@ Panel makeComparisonPanel(const JobData& data,
                 side,
                 {"muscles", SeriesRole::kSimulated, sign},
                 panel);
-  data.addToeOffs(side != BodySide::kLeft, side == BodySide::kLeft, panel);
+  data.addToeOffs(side != Side::kLeft, side == Side::kLeft, panel);
   panel.note = describeDifference(panel);
   return panel;
 }
@@ -101,7 +101,7 @@ Panel makeComparisonPanel(const JobData& data,
 /// Total, active and passive moment of the muscles at one joint of one leg.
 Panel makePartsPanel(const JobData& data,
                      const std::string& coordinate,
-                     BodySide side,
+                     Side side,
                      const std::string& title,
                      double sign) {
   const TimeSeries& table = data.table("muscle_moments");
@@ -112,20 +112,20 @@ Panel makePartsPanel(const JobData& data,
       table, coordinate + "_active_moment", side, {"active", SeriesRole::kActive, sign}, panel);
   data.addCurve(
       table, coordinate + "_passive_moment", side, {"passive", SeriesRole::kPassive, sign}, panel);
-  data.addToeOffs(side != BodySide::kLeft, side == BodySide::kLeft, panel);
+  data.addToeOffs(side != Side::kLeft, side == Side::kLeft, panel);
   return panel;
 }
 
 struct SideColumn {
-  BodySide side;
+  Side side;
   const std::string& coordinate;
 };
 
 std::vector<SideColumn> listSides(const SidedColumns& pair) {
   std::vector<SideColumn> sides;
-  for (const SideColumn& one : {SideColumn{BodySide::kRight, pair.right},
-                                SideColumn{BodySide::kLeft, pair.left},
-                                SideColumn{BodySide::kNone, pair.center}}) {
+  for (const SideColumn& one : {SideColumn{Side::kRight, pair.right},
+                                SideColumn{Side::kLeft, pair.left},
+                                SideColumn{Side::kNone, pair.center}}) {
     if (!one.coordinate.empty()) {
       sides.push_back(one);
     }
@@ -134,13 +134,13 @@ std::vector<SideColumn> listSides(const SidedColumns& pair) {
 }
 
 /// "Right hip flexion"
-std::string makeTitle(const std::string& base, BodySide side) {
+std::string makeTitle(const std::string& base, Side side) {
   std::string display = findCoordinateName(base).display;
-  if (side == BodySide::kNone) {
+  if (side == Side::kNone) {
     return display;
   }
   display.front() = static_cast<char>(display.front() - 'A' + 'a');
-  return capitalize(sideName(side)) + " " + display;
+  return capitalize(sideWord(side)) + " " + display;
 }
 
 /// The paper's three joints and its signs.
@@ -221,7 +221,7 @@ void buildJointPowers(const JobData& data, Figure& figure) {
 void buildPaperFigure4(const JobData& data, Figure& figure) {
   for (const PaperJoint& joint : kPaperJoints) {
     figure.panels.push_back(
-        makeComparisonPanel(data, joint.coordinate, BodySide::kRight, joint.title, joint.sign));
+        makeComparisonPanel(data, joint.coordinate, Side::kRight, joint.title, joint.sign));
   }
   figure.caption += " " + data.describeAxis();
 }
@@ -229,7 +229,7 @@ void buildPaperFigure4(const JobData& data, Figure& figure) {
 void buildPaperSupplementalFigure4(const JobData& data, Figure& figure) {
   for (const PaperJoint& joint : kPaperJoints) {
     figure.panels.push_back(
-        makePartsPanel(data, joint.coordinate, BodySide::kRight, joint.title, joint.sign));
+        makePartsPanel(data, joint.coordinate, Side::kRight, joint.title, joint.sign));
   }
   figure.caption += " " + data.describeAxis();
 }

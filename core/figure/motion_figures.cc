@@ -183,7 +183,7 @@ void buildMarkerErrors(const JobData& data, Figure& figure) {
   Panel frames = makePanel(data, "frames", "RMS over the markers", {"Distance", "cm", 0.0});
   data.addCurve(calcFrameRms(table),
                 "rms",
-                BodySide::kNone,
+                Side::kNone,
                 {"RMS of a frame", SeriesRole::kPlain, kCentimetersPerMeter},
                 frames);
   addLimit(data, "marker_error_rms", "RMS of a frame", 1, frames);

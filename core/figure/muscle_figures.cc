@@ -76,10 +76,10 @@ struct WorkPanel {
 Series makeWorkBars(const TimeSeries& work,
                     const std::vector<MusclePair>& muscles,
                     const std::string& part,
-                    BodySide side) {
+                    Side side) {
   Series bars;
-  bars.name = sideName(side);
-  bars.role = side == BodySide::kRight ? SeriesRole::kRight : SeriesRole::kLeft;
+  bars.name = sideWord(side);
+  bars.role = side == Side::kRight ? SeriesRole::kRight : SeriesRole::kLeft;
   bars.mark = SeriesMark::kBars;
   for (const MusclePair& muscle : muscles) {
     const std::string column = muscle.name.base + "_" + sideLetter(side) + "_" + part;
@@ -144,7 +144,7 @@ void buildMuscleWork(const JobData& data, Figure& figure) {
     panel.x.label = "Muscle";
     panel.y = {"Work", "J"};
     for (const char* part : plan.parts) {
-      for (const BodySide side : {BodySide::kRight, BodySide::kLeft}) {
+      for (const Side side : {Side::kRight, Side::kLeft}) {
         panel.series.push_back(makeWorkBars(work, muscles, part, side));
       }
     }

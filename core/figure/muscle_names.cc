@@ -28,7 +28,7 @@ const char* groupName(MuscleGroup group) {
 }
 
 SidedName splitSide(const std::string& name) {
-  for (const BodySide side : {BodySide::kRight, BodySide::kLeft}) {
+  for (const Side side : {Side::kRight, Side::kLeft}) {
     const std::string mark = std::string("_") + sideLetter(side);
     for (std::size_t place = name.find(mark); place != std::string::npos;
          place = name.find(mark, place + 1)) {
@@ -38,15 +38,15 @@ SidedName splitSide(const std::string& name) {
       }
     }
   }
-  return {name, BodySide::kNone};
+  return {name, Side::kNone};
 }
 
-const char* sideLetter(BodySide side) {
-  return side == BodySide::kNone ? "" : side == BodySide::kRight ? "r" : "l";
+const char* sideLetter(Side side) {
+  return side == Side::kNone ? "" : side == Side::kRight ? "r" : "l";
 }
 
-const char* sideName(BodySide side) {
-  return side == BodySide::kNone ? "" : side == BodySide::kRight ? "right" : "left";
+const char* sideWord(Side side) {
+  return side == Side::kNone ? "" : side == Side::kRight ? "right" : "left";
 }
 
 const std::vector<MuscleName>& knownMuscles() {

@@ -20,20 +20,20 @@ enum class MuscleGroup {
 /// "Gluteals", "Hip flexors"
 const char* groupName(MuscleGroup group);
 
-enum class BodySide { kRight, kLeft, kNone };
+enum class Side { kRight, kLeft, kNone };
 
 /// What stands before "_r" or "_l" in a name, and the side.
 struct SidedName {
   std::string base;
-  BodySide side = BodySide::kNone;
+  Side side = Side::kNone;
 };
 
 /// "soleus_r" is the right "soleus"; the letter may stand between, as in "knee_angle_r_moment".
 SidedName splitSide(const std::string& name);
 /// "r", "l" or "".
-const char* sideLetter(BodySide side);
+const char* sideLetter(Side side);
 /// "right", "left" or "".
-const char* sideName(BodySide side);
+const char* sideWord(Side side);
 
 /// How a muscle is called in figures.
 struct MuscleName {

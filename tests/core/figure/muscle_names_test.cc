@@ -16,9 +16,9 @@ TEST(MuscleNames, CoverEveryMuscleOfTheModelOnce) {
   for (const MuscleSpec& muscle : model.muscles) {
     const SidedName name = splitSide(muscle.name);
     const MuscleName found = findMuscleName(name.base);
-    EXPECT_NE(name.side, BodySide::kNone) << muscle.name;
+    EXPECT_NE(name.side, Side::kNone) << muscle.name;
     EXPECT_NE(found.display, found.base) << muscle.name;
-    displays.insert(std::string(sideName(name.side)) + found.display);
+    displays.insert(std::string(sideWord(name.side)) + found.display);
   }
   EXPECT_EQ(displays.size(), 80U);
   EXPECT_EQ(knownMuscles().size(), 40U);
@@ -31,11 +31,11 @@ TEST(MuscleNames, OfOtherModelsAreMadeReadable) {
 
 TEST(SplitSide, FindsTheLetterAtTheEndOrInside) {
   EXPECT_EQ(splitSide("soleus_r").base, "soleus");
-  EXPECT_EQ(splitSide("soleus_r").side, BodySide::kRight);
+  EXPECT_EQ(splitSide("soleus_r").side, Side::kRight);
   EXPECT_EQ(splitSide("knee_angle_l_moment").base, "knee_angle_moment");
-  EXPECT_EQ(splitSide("knee_angle_l_moment").side, BodySide::kLeft);
+  EXPECT_EQ(splitSide("knee_angle_l_moment").side, Side::kLeft);
   EXPECT_EQ(splitSide("hip_flexion_r_reserve").base, "hip_flexion_reserve");
-  EXPECT_EQ(splitSide("pelvis_rotation").side, BodySide::kNone);
+  EXPECT_EQ(splitSide("pelvis_rotation").side, Side::kNone);
   EXPECT_EQ(splitSide("lumbar_rotation").base, "lumbar_rotation");
 }
 
