@@ -130,19 +130,21 @@ class PanelView {
             {"axis", {{"values", makeTicks(range, ticks)}}}};
   }
 
-  json colorEncoding(json source) const {
-    source["scale"] = scales_.color;
-    source["title"] = nullptr;
+  // Colour and dash of the field "series", whose legends become one.
+  json colorEncoding() const {
+    json color = {
+        {"field", "series"}, {"type", "nominal"}, {"scale", scales_.color}, {"title", nullptr}};
     if (!has_legend_) {
-      source["legend"] = nullptr;
+      color["legend"] = nullptr;
     } else if (hasBars()) {
-      source["legend"] = {{"symbolType", "square"}, {"symbolSize", 100}, {"symbolStrokeWidth", 0}};
+      color["legend"] = {{"symbolType", "square"}, {"symbolSize", 100}, {"symbolStrokeWidth", 0}};
     }
-    return source;
+    return color;
   }
 
-  json dashEncoding(const std::string& name) const {
-    json dash = {{"datum", name}, {"scale", scales_.dash}, {"title", nullptr}};
+  json dashEncoding() const {
+    json dash = {
+        {"field", "series"}, {"type", "nominal"}, {"scale", scales_.dash}, {"title", nullptr}};
     if (!has_legend_) {
       dash["legend"] = nullptr;
     }
@@ -204,22 +206,21 @@ class PanelView {
 
   json renderSeries(std::size_t i) const {
     const Series& series = panel_.series[i];
-    json encoding = {{"x", xEncoding("x")},
-                     {"y", yEncoding(yField(i))},
-                     {"color", colorEncoding({{"datum", series.name}})}};
-    switch (series.mark) {
-      case SeriesMark::kBand:
-        encoding["y2"] = {{"field", lowField(i)}};
-        return {{"mark", {{"type", "area"}, {"opacity", 0.2}, {"clip", true}}},
-                {"encoding", encoding}};
-      case SeriesMark::kPoints:
-        return {{"mark", {{"type", "point"}, {"filled", true}, {"size", 16}, {"clip", true}}},
-                {"encoding", encoding}};
-      default:
-        encoding["strokeDash"] = dashEncoding(series.name);
-        return {{"mark", {{"type", "line"}, {"strokeWidth", 1.6}, {"clip", true}}},
-                {"encoding", encoding}};
+    json encoding = {
+        {"x", xEncoding("x")}, {"y", yEncoding(yField(i))}, {"color", colorEncoding()}};
+    json mark = {{"clip", true}};
+    if (series.mark == SeriesMark::kBand) {
+      mark.update({{"type", "area"}, {"opacity", 0.2}});
+      encoding["y2"] = {{"field", lowField(i)}};
+    } else if (series.mark == SeriesMark::kPoints) {
+      mark.update({{"type", "point"}, {"filled", true}, {"size", 16}});
+    } else {
+      mark.update({{"type", "line"}, {"strokeWidth", 1.6}});
+      encoding["strokeDash"] = dashEncoding();
     }
+    // The expression is a constant: the name as a string literal.
+    const json name = {{"calculate", dumpJson(series.name)}, {"as", "series"}};
+    return {{"transform", {name}}, {"mark", mark}, {"encoding", encoding}};
   }
 
   json renderBars() const {
@@ -246,7 +247,7 @@ class PanelView {
                              {"axis", {{"labelAngle", -50}, {"labelLimit", 220}}}}},
                            {"xOffset", {{"field", "series"}, {"type", "nominal"}, {"sort", order}}},
                            {"y", yEncoding("y")},
-                           {"color", colorEncoding({{"field", "series"}, {"type", "nominal"}})}};
+                           {"color", colorEncoding()}};
     return {{"data", {{"values", rows}}},
             {"mark", {{"type", "bar"}, {"clip", true}}},
             {"encoding", encoding}};

@@ -37,7 +37,7 @@ struct TableComparison {
 
 /// A number that the quality figures of all jobs have.
 struct QuantityComparison {
-  std::string quantity;       ///< "moments.knee_angle_r.rmse_nm"
+  std::string quantity;        ///< "moments.knee_angle_r.rmse_nm"
   std::vector<double> values;  ///< one per job; NaN = it has none
 };
 
@@ -47,8 +47,8 @@ struct Comparison {
   std::vector<QuantityComparison> quality;
 };
 
-/// Difference tables of several jobs on the cycle axis, each against the first: radians and SI units
-/// as in the tables. Tables and columns that a job does not have are left out.
+/// Difference tables of several jobs on the cycle axis, each against the first: radians and SI
+/// units as in the tables. Tables and columns that a job does not have are left out.
 /// @param results  at least two @throws Error kInputValue
 Comparison compareResults(const std::vector<NamedResult>& results);
 

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/text.h"
 #include "core/figure/job_builders.h"
 #include "core/figure/muscle_names.h"
 #include "core/figure/numbers.h"
@@ -54,6 +55,16 @@ TimeSeries calcMeanActivation(const TimeSeries& activations,
   return table;
 }
 
+/// The rows of the electromyogram at which there are activations, and one more at each end: what is
+/// shown of both is the same stretch of the trial, realigned alike.
+TimeSeries cutToActivations(const TimeSeries& emg, const TimeSeries& activations) {
+  int first = emg.findNearestRow(activations.time.front());
+  int last = emg.findNearestRow(activations.time.back());
+  first = std::max(0, first - 1);
+  last = std::min(emg.rowCount() - 1, last + 1);
+  return emg.copyRows(first, last);
+}
+
 double findPeak(const Panel& panel, SeriesRole role) {
   double peak = std::numeric_limits<double>::quiet_NaN();
   for (const Series& series : panel.series) {
@@ -83,21 +94,46 @@ void scaleToActivation(Panel& panel) {
   }
 }
 
+/// "in agreement 85 % of the cycle, correlation 0.93 at a lag of 2 %"; empty if nothing is known.
+std::string describeAgreement(const JobData& data, const std::string& channel) {
+  const Json::json_pointer place("/emg/comparison");
+  if (!data.summary().contains(place)) {
+    return "";
+  }
+  for (const Json& entry : data.summary().at(place)) {
+    const Json overlap = entry.value("overlap", Json());
+    const Json correlation = entry.value("correlation", Json());
+    const Json lag = entry.value("lag_percent", Json());
+    if (entry.value("channel", "") == channel && overlap.is_number() && correlation.is_number() &&
+        lag.is_number()) {
+      return "on and off alike " + formatShort(100 * overlap.get<double>()) +
+             " % of the cycle; correlation " + formatFixed(correlation.get<double>(), 2) +
+             " at a lag of " + formatShort(lag.get<double>()) + " %";
+    }
+  }
+  return "";
+}
+
 Panel makeChannelPanel(const JobData& data, const Channel& channel, const std::string& title) {
   const Side side = splitSide(channel.muscles.front()).side;
-  Panel panel = makePanel(data, channel.name, title, {"Activation", "", 0.0, 1.0});
-  data.addCurve(data.table("emg"),
-                channel.name,
-                side,
-                {"electromyogram, scaled", SeriesRole::kEmg, 1},
-                panel);
-  data.addCurve(calcMeanActivation(data.table("activations"), channel.muscles),
+  const TimeSeries& activations = data.table("activations");
+  Panel panel = makePanel(
+      data, channel.name.empty() ? title : channel.name, title, {"Activation", "", 0.0, 1.0});
+  if (!channel.name.empty()) {
+    data.addCurve(cutToActivations(data.table("emg"), activations),
+                  channel.name,
+                  side,
+                  {"electromyogram, scaled", SeriesRole::kEmg, 1},
+                  panel);
+  }
+  data.addCurve(calcMeanActivation(activations, channel.muscles),
                 "mean",
                 side,
                 {"simulated activation", SeriesRole::kSimulated, 1},
                 panel);
   scaleToActivation(panel);
   data.addToeOffs(side != Side::kLeft, side == Side::kLeft, panel);
+  panel.note = describeAgreement(data, channel.name);
   return panel;
 }
 
@@ -161,7 +197,7 @@ std::string findChannel(const std::vector<Channel>& channels, const std::string&
 void buildActivationsEmg(const JobData& data, Figure& figure) {
   for (const Channel& channel : readChannels(data)) {
     Panel panel = makeChannelPanel(data, channel, nameMuscles(channel.muscles));
-    panel.note = "channel " + channel.name;
+    panel.title += " (" + channel.name + ")";
     figure.panels.push_back(std::move(panel));
   }
   figure.caption += describeEmg(data);

@@ -99,7 +99,7 @@ std::vector<SidedColumns> pairSides(const std::vector<std::string>& labels) {
         known != pairs.end() ? *known : pairs.emplace_back(SidedColumns{name.base, "", "", ""});
     (name.side == Side::kRight  ? pair.right
      : name.side == Side::kLeft ? pair.left
-                                    : pair.center) = label;
+                                : pair.center) = label;
   }
   return pairs;
 }
@@ -272,8 +272,7 @@ void JobData::addSides(const TimeSeries& table,
                        const SidedColumns& columns,
                        double factor,
                        Panel& panel) const {
-  addCurve(
-      table, columns.center, Side::kNone, {"trunk", SeriesRole::kReference, factor}, panel);
+  addCurve(table, columns.center, Side::kNone, {"trunk", SeriesRole::kReference, factor}, panel);
   addCurve(table, columns.right, Side::kRight, {"right", SeriesRole::kRight, factor}, panel);
   addCurve(table, columns.left, Side::kLeft, {"left", SeriesRole::kLeft, factor}, panel);
 }

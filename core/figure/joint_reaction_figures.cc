@@ -44,8 +44,7 @@ TimeSeries calcReactions(const TimeSeries& reactions, const std::string& child) 
     }
     const Eigen::VectorXd forward = reactions.values.col(*fx);
     const Eigen::VectorXd down = -reactions.values.col(*fy);
-    const Eigen::VectorXd lateral =
-        (side == Side::kRight ? 1.0 : -1.0) * reactions.values.col(*fz);
+    const Eigen::VectorXd lateral = (side == Side::kRight ? 1.0 : -1.0) * reactions.values.col(*fz);
     const Eigen::VectorXd resultant =
         (forward.array().square() + down.array().square() + lateral.array().square()).sqrt();
     addColumn("resultant" + letter, resultant, table);

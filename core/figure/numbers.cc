@@ -37,8 +37,4 @@ std::string formatShort(double value) {
   return text;
 }
 
-std::string displayUnit(const std::string& unit) {
-  return unit == "N.m" ? "N·m" : unit;
-}
-
 }  // namespace gaitmill

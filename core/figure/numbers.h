@@ -10,7 +10,4 @@ double roundSignificant(double value, int digits);
 /// A number for people with three significant digits: "0.0123", "12.3", "1230".
 std::string formatShort(double value);
 
-/// "N·m" for "N.m", which tables wear.
-std::string displayUnit(const std::string& unit);
-
 }  // namespace gaitmill

@@ -32,7 +32,7 @@ void addLimit(const JobData& data,
     panel.guides.push_back({Guide::Direction::kHorizontal,
                             value,
                             "limit of " + what + ": " + formatShort(value) + " " + panel.y.unit +
-                                " (" + limit->source + ")"});
+                                " (" + limit->source.substr(0, limit->source.find(':')) + ")"});
   }
 }
 
