@@ -402,11 +402,10 @@ std::string renderVegaLite(const Figure& figure) {
   const std::vector<LegendEntry> shared = makeSharedLegend(figure);
   const int columns =
       std::clamp(figure.columns, 1, std::max(1, static_cast<int>(figure.panels.size())));
+  const double width = kWidth / columns - kAround;
   json panels = json::array();
   for (const Panel& panel : figure.panels) {
-    panels.push_back(
-        PanelView(panel, shared.empty() ? makeLegend(panel) : shared, kWidth / columns - kAround)
-            .render());
+    panels.push_back(PanelView(panel, shared.empty() ? makeLegend(panel) : shared, width).render());
   }
   const char* legends = shared.empty() ? "independent" : "shared";
   return dumpJson(
