@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.h"
@@ -74,25 +75,71 @@ std::vector<Series> makeLengths(const ModelSpec& model) {
   return all;
 }
 
-Panel makePanel(MuscleGroup group, std::vector<Series> series) {
+Extremes findExtremes(const std::vector<Series>& series) {
+  Extremes extremes;
+  for (const Series& one : series) {
+    extremes.include(one);
+  }
+  return extremes;
+}
+
+Panel makePanel(const std::string& title, std::vector<Series> series, const Axis& y) {
   Panel panel;
-  panel.title = groupName(group);
-  panel.name = panel.title;
+  panel.title = title;
+  panel.name = title;
   for (char& letter : panel.name) {
     letter = letter == ' ' ? '_' : static_cast<char>(std::tolower(letter));
   }
   panel.x = {"Gait cycle", "%", 0.0, 100.0};
-  panel.y = {"Normalised fiber length", ""};
-  panel.series = std::move(series);
+  panel.y = y;
   panel.guides = {{Guide::Direction::kVertical, kToeOff_percent, "toe-off"},
-                  {Guide::Direction::kHorizontal, 1, "optimal"}};
-  Extremes extremes;
-  for (const Series& one : panel.series) {
-    extremes.include(one);
-  }
+                  {Guide::Direction::kHorizontal, 1, ""}};
+  const Extremes extremes = findExtremes(series);
   panel.note = "From " + formatFixed(extremes.low, 2) + " (" + extremes.low_muscle + ") to " +
                formatFixed(extremes.high, 2) + " (" + extremes.high_muscle + ")";
+  panel.series = std::move(series);
   return panel;
+}
+
+// One panel for each of the gluteal muscles, whose nine compartments would be too many curves for
+// one; one for each group of the others.
+std::string findPanelTitle(const MuscleName& muscle) {
+  return muscle.group == MuscleGroup::kGluteals ? muscle.display.substr(0, muscle.display.find(','))
+                                                : groupName(muscle.group);
+}
+
+struct PanelSeries {
+  std::string title;
+  std::vector<Series> series;
+};
+
+std::vector<PanelSeries> groupSeries(const ModelSpec& model, std::vector<Series> lengths) {
+  std::map<std::pair<MuscleGroup, std::string>, std::vector<Series>> groups;
+  for (std::size_t m = 0; m < lengths.size(); ++m) {
+    if (!lengths[m].y.empty()) {
+      const MuscleName name = findMuscleName(findMuscleBase(model.muscles[m].name));
+      groups[{name.group, findPanelTitle(name)}].push_back(std::move(lengths[m]));
+    }
+  }
+  std::vector<PanelSeries> panels;
+  for (auto& [key, series] : groups) {
+    panels.push_back({key.second, std::move(series)});
+  }
+  return panels;
+}
+
+// The same ordinate in all panels, its ends on tenths.
+Axis makeOrdinate(const std::vector<PanelSeries>& panels) {
+  Extremes all;
+  for (const PanelSeries& panel : panels) {
+    const Extremes extremes = findExtremes(panel.series);
+    all.low = std::min(all.low, extremes.low);
+    all.high = std::max(all.high, extremes.high);
+  }
+  return {"Normalised fiber length",
+          "",
+          std::min(0.9, std::floor(10 * all.low) / 10),
+          std::max(1.1, std::ceil(10 * all.high) / 10)};
 }
 
 }  // namespace
@@ -114,14 +161,8 @@ bool hasFiberLengthFigure(const ModelSpec& model) {
 }
 
 Figure makeFiberLengthFigure(const ModelSpec& model) {
-  std::map<MuscleGroup, std::vector<Series>> groups;
-  std::vector<Series> lengths = makeLengths(model);
-  for (std::size_t m = 0; m < lengths.size(); ++m) {
-    if (!lengths[m].y.empty()) {
-      const MuscleGroup group = findMuscleName(findMuscleBase(model.muscles[m].name)).group;
-      groups[group].push_back(std::move(lengths[m]));
-    }
-  }
+  std::vector<PanelSeries> panels = groupSeries(model, makeLengths(model));
+  const Axis ordinate = makeOrdinate(panels);
   Figure figure;
   figure.name = "fiber_lengths_gait";
   figure.title = "Fiber lengths over a gait cycle";
@@ -130,9 +171,12 @@ Figure makeFiberLengthFigure(const ModelSpec& model) {
       "to "
       "the next. The motion is gaitmill's embedded walking pattern, five harmonics fitted to the "
       "walking trial of Rajagopal et al. (2016), on this model; no muscle is computed to drive it: "
-      "each is in static equilibrium with its tendon at 1 % activation.";
-  for (auto& [group, series] : groups) {
-    figure.panels.push_back(makePanel(group, std::move(series)));
+      "each is in static equilibrium with its tendon at 1 % activation. Dashed: optimal length, "
+      "and "
+      "toe-off of that trial.";
+  figure.columns = 3;
+  for (PanelSeries& panel : panels) {
+    figure.panels.push_back(makePanel(panel.title, std::move(panel.series), ordinate));
   }
   return figure;
 }

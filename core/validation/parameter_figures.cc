@@ -200,6 +200,18 @@ Panel makeForcePanel(const std::vector<ParameterSpread>& rows) {
   return panel;
 }
 
+Panel makeFiberPanel(const std::vector<ParameterSpread>& rows) {
+  Panel panel;
+  panel.name = "fiber_length_sd";
+  panel.title = "Spread of optimal fiber length";
+  panel.y = {"Standard deviation", "cm", 0.0};
+  panel.series = {makeBars(rows, "printed", SeriesRole::kReference, [](const ParameterSpread& r) {
+    return r.published->fiber_cm.sd;
+  })};
+  panel.note = "Measured: an input of the formulas, not recomputed.";
+  return panel;
+}
+
 std::string describeMonteCarlo(const std::vector<ParameterSpread>& rows,
                                const ValidationOptions& options) {
   double rejected = 0;
@@ -292,7 +304,7 @@ Panel makeInputPanel(const std::vector<ParameterSpread>& rows) {
   panel.title = "Inputs inferred";
   panel.y = {"Standard deviation over mean", "%", 0.0};
   panel.series = {makeBars(rows,
-                           "volume fraction",
+                           "inferred, volume fraction",
                            SeriesRole::kPlain,
                            [](const ParameterSpread& r) { return 100 * r.volume_cv; }),
                   makeBars(rows,
@@ -350,6 +362,7 @@ Figure makeVariabilityFigure(const ModelSpec& model, const ValidationOptions& op
       "length and angle.";
   figure.columns = 1;
   figure.panels = {makeForcePanel(rows),
+                   makeFiberPanel(rows),
                    makeSlackPanel(rows, options),
                    makePennationPanel(rows),
                    makeInputPanel(rows)};
