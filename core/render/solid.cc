@@ -78,24 +78,23 @@ std::vector<StrokePoint> takeColumn(const std::vector<std::vector<StrokePoint>>&
 
 }  // namespace
 
+double Solid::calcDistance(const Segment& segment, const CrossSection& section, const Vector3d& p) {
+  const Vector3d along = segment.to - segment.from;
+  const double t = std::clamp((p - segment.from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  const Vector3d offset = p - segment.from - t * along;
+  const double radius = segment.from_radius + t * (segment.to_radius - segment.from_radius);
+  if (section.flatness == 1) {
+    return offset.norm() - radius;
+  }
+  const double through = offset.dot(section.thin_direction);
+  const double across = std::sqrt(std::max(0.0, offset.squaredNorm() - through * through));
+  return calcScaledDistance({across, through, 0}, {radius, radius * section.flatness, radius});
+}
+
 double Solid::calcDistance(const Stroke& stroke, const Vector3d& p) {
   double nearest = std::numeric_limits<double>::infinity();
-  const Vector3d& thin = stroke.section.thin_direction;
   for (const Segment& segment : stroke.segments) {
-    const Vector3d along = segment.to - segment.from;
-    const double t = std::clamp((p - segment.from).dot(along) / along.squaredNorm(), 0.0, 1.0);
-    const Vector3d offset = p - segment.from - t * along;
-    const double radius = segment.from_radius + t * (segment.to_radius - segment.from_radius);
-    double distance = 0;
-    if (stroke.section.flatness == 1) {
-      distance = offset.norm() - radius;
-    } else {
-      const double through = offset.dot(thin);
-      const double across = std::sqrt(std::max(0.0, offset.squaredNorm() - through * through));
-      distance = calcScaledDistance({across, through, 0},
-                                    {radius, radius * stroke.section.flatness, radius});
-    }
-    nearest = std::min(nearest, distance);
+    nearest = std::min(nearest, calcDistance(segment, stroke.section, p));
   }
   return nearest;
 }
@@ -104,15 +103,19 @@ double Solid::calcDistance(const Ellipsoid& ellipsoid, const Vector3d& p) {
   return calcScaledDistance(ellipsoid.axes.transpose() * (p - ellipsoid.center), ellipsoid.radii);
 }
 
+double Solid::calcDistance(const Triangle& triangle, const Vector3d& p) {
+  const Vector3d local = p - triangle.corner;
+  const Vector3d weights =
+      findNearestWeights(triangle.first_side, triangle.second_side, triangle.inverse_gram, local);
+  const Vector3d offset =
+      local - weights[1] * triangle.first_side - weights[2] * triangle.second_side;
+  return offset.norm() - weights.dot(triangle.radii);
+}
+
 double Solid::calcDistance(const Sheet& sheet, const Vector3d& p) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Triangle& triangle : sheet.triangles) {
-    const Vector3d local = p - triangle.corner;
-    const Vector3d weights =
-        findNearestWeights(triangle.first_side, triangle.second_side, triangle.inverse_gram, local);
-    const Vector3d offset =
-        local - weights[1] * triangle.first_side - weights[2] * triangle.second_side;
-    nearest = std::min(nearest, offset.norm() - weights.dot(triangle.radii));
+    nearest = std::min(nearest, calcDistance(triangle, p));
   }
   return nearest;
 }
@@ -251,22 +254,26 @@ Eigen::AlignedBox3d Solid::findBox() const {
 
 Solid Solid::selectNear(const Vector3d& center, double radius) const {
   // The distances of stretched parts change up to this much faster than the way to them.
-  constexpr double kSlack = 1.5;
-  const double reach = 2 * kSlack * radius;
+  constexpr double kSlack = 1.4;
+  const double reach = kSlack * radius;
   Solid near;
   for (const Part& part : parts_) {
+    // A part more than a fillet away from the surface does not move it.
+    const double limit = reach + part.blend;
     const double distance = calcDistance(part, center);
-    if (distance > reach + part.blend) {
+    if (distance > limit) {
       continue;
     }
     near.parts_.push_back(part);
+    // Of a part's pieces those that can be the nearest one.
+    const double piece_limit = std::min(distance + 2 * reach, limit);
     if (auto* stroke = std::get_if<Stroke>(&near.parts_.back().shape)) {
       keepIf(stroke->segments, [&](const Segment& segment) {
-        return calcDistance(Stroke{{segment}, stroke->section}, center) <= distance + reach;
+        return calcDistance(segment, stroke->section, center) <= piece_limit;
       });
     } else if (auto* sheet = std::get_if<Sheet>(&near.parts_.back().shape)) {
       keepIf(sheet->triangles, [&](const Triangle& triangle) {
-        return calcDistance(Sheet{{triangle}}, center) <= distance + reach;
+        return calcDistance(triangle, center) <= piece_limit;
       });
     }
   }

@@ -74,6 +74,10 @@ class Solid {
     Eigen::AlignedBox3d box;  ///< around the shape
   };
 
+  static double calcDistance(const Segment& segment,
+                             const CrossSection& section,
+                             const Eigen::Vector3d& p);
+  static double calcDistance(const Triangle& triangle, const Eigen::Vector3d& p);
   static double calcDistance(const Stroke& stroke, const Eigen::Vector3d& p);
   static double calcDistance(const Ellipsoid& ellipsoid, const Eigen::Vector3d& p);
   static double calcDistance(const Sheet& sheet, const Eigen::Vector3d& p);

@@ -18,7 +18,7 @@ namespace {
 using Vector3d = Eigen::Vector3d;
 using Index3 = std::array<int, 3>;
 
-constexpr int kBlock = 6;  // cells of a block along an edge: what lies near is looked up per block
+constexpr int kBlock = 4;  // cells of a block along an edge: what lies near is looked up per block
 constexpr double kOutside =
     1;  // distance where there is certainly no surface; only its sign counts
 constexpr std::uint32_t kNone = 0xffffffffu;
@@ -129,12 +129,11 @@ void SolidMesher::placeVertex(const Index3& cell) {
   }
   const Solid& near = near_[block_of_[at(cell)]];
   Vector3d p = sum / crossings;
-  Vector3d gradient = calcGradient(near, p);
+  const Vector3d gradient = calcGradient(near, p);
   // One Newton step onto the surface, but not out of the cell.
   const Vector3d corner = pointAt(cell);
   p -= near.calcDistance(p) / std::max(gradient.squaredNorm(), 0.1) * gradient;
   p = p.cwiseMax(corner).cwiseMin(corner + cell_);
-  gradient = calcGradient(near, p);
   vertex_[at(cell)] = static_cast<std::uint32_t>(mesh_.vertices.size());
   mesh_.vertices.push_back(p.cast<float>());
   mesh_.normals.push_back(gradient.stableNormalized().cast<float>());
