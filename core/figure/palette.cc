@@ -101,10 +101,16 @@ std::vector<LegendEntry> makeSharedLegend(const Figure& figure) {
       const auto known = std::find_if(shared.begin(), shared.end(), [&](const LegendEntry& other) {
         return other.name == entry.name;
       });
+      // One name with two looks, or two names with one look, would mislead.
+      const bool misleads =
+          std::any_of(shared.begin(), shared.end(), [&](const LegendEntry& other) {
+            return (other.name == entry.name) != isSame(other, entry);
+          });
+      if (misleads) {
+        return {};
+      }
       if (known == shared.end()) {
         shared.push_back(entry);
-      } else if (!isSame(*known, entry)) {
-        return {};
       }
     }
   }

@@ -28,8 +28,8 @@ struct LegendEntry {
 /// The named series of a panel, each name once, in their order; a line stands before its band.
 std::vector<LegendEntry> makeLegend(const Panel& panel);
 
-/// The one legend of all panels if a name looks the same in all of them and they are few; empty if
-/// each panel needs its own.
+/// The one legend of all panels if a name looks the same in all of them, no two names look alike,
+/// and they are few; empty if each panel needs its own.
 std::vector<LegendEntry> makeSharedLegend(const Figure& figure);
 
 }  // namespace gaitmill

@@ -102,6 +102,16 @@ TEST(Svg, OneLegendServesAllPanelsThatAgree) {
   EXPECT_EQ(count(renderSvg(figure), ">left<"), 1U);
 }
 
+// The first curve of either panel is blue: one legend would call two muscles the same.
+TEST(Palette, TwoNamesOfOneLookNeedALegendPerPanel) {
+  Figure figure = makeFigureOf(makeLine({0, 1}));
+  figure.panels[0].series[0].name = "soleus";
+  figure.panels.push_back(figure.panels[0]);
+  EXPECT_EQ(makeSharedLegend(figure).size(), 1U);
+  figure.panels[1].series[0].name = "psoas";
+  EXPECT_TRUE(makeSharedLegend(figure).empty());
+}
+
 TEST(Svg, ControlCharactersBecomeSpaces) {
   EXPECT_EQ(escapeXml("a\x01"
                       "b\nc"),
