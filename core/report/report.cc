@@ -40,12 +40,13 @@ std::string renderReport(const ReportContent& content) {
   check(content.results != nullptr, "a report has results");
   const Json summary = Json::parse(content.results->summary());
   const ReportProvenance& provenance = content.provenance;
-  const Html body = renderHeader(provenance, summary) +
-                    element("main",
-                            renderOverview(summary) + renderPoses(content.images) +
-                                renderStages(summary) + renderFigures(content.figures) +
-                                renderWarnings(summary) + renderProvenance(provenance, summary)) +
-                    renderFooter(provenance);
+  const Html body =
+      renderHeader(provenance, summary) +
+      element("main",
+              renderOverview(summary) + renderPoses(content.images) + renderStages(summary) +
+                  renderEmg(summary) + renderFigures(content.figures) + renderWarnings(summary) +
+                  renderProvenance(provenance, summary)) +
+      renderFooter(provenance);
   return "<!DOCTYPE html>\n" +
          element("html", {{"lang", "en"}}, renderHead(provenance) + element("body", body))
              .markup() +

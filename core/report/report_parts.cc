@@ -8,10 +8,15 @@
 #include <vector>
 
 #include "core/analysis/quality_check.h"
+#include "core/figure/svg.h"
 
 namespace gaitmill {
 
 namespace {
+
+// As wide as a page of paper is at the size of its words, so that a chart's words are readable
+// there.
+constexpr double kChartWidth = 800;  // [px]
 
 struct VerdictLook {
   const char* symbol;
@@ -304,8 +309,21 @@ Html renderStage(const std::string& stage, const Json& summary) {
                  element("h2", text(stageTitle(stage) + " ") + renderVerdict(verdict)) + content);
 }
 
-Html renderFigures(const std::vector<Figure>&) {
-  return {};
+Html renderFigures(const std::vector<Figure>& figures) {
+  SvgOptions options;
+  options.width = kChartWidth;
+  Html charts;
+  for (const Figure& figure : figures) {
+    // On a phone a chart keeps a legible size and scrolls by itself.
+    const Html chart = element(
+        "div",
+        {{"class", "wide"}, {"role", "region"}, {"tabindex", "0"}, {"aria-label", figure.title}},
+        trusted(renderSvg(figure, options)));
+    charts += element("section",
+                      {{"class", "chart"}},
+                      element("h3", figure.title) + chart + element("p", figure.caption));
+  }
+  return charts.empty() ? Html() : element("section", element("h2", "Figures") + charts);
 }
 
 Html renderWarnings(const Json& summary) {

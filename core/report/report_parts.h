@@ -37,8 +37,10 @@ Html renderWarnings(const Json& summary);
 /// What the limits are taken from, and what made this page.
 Html renderFooter(const ReportProvenance& provenance);
 
-/// Tables of one stage: markers, passes, actuators, moments, EMG.
+/// Tables of one stage: markers, passes, actuators, moments.
 Html renderStageTables(const std::string& stage, const Json& summary);
+/// How the muscles' times of activity agree with the measured ones.
+Html renderEmg(const Json& summary);
 
 /// The sheet of style for screen and paper.
 const char* reportStyle();

@@ -48,8 +48,10 @@ dd{margin:0;overflow-wrap:anywhere}
 figure{margin:0}
 img,svg{max-width:100%;height:auto;display:block}
 figcaption{font-size:.9rem;color:#333;padding:.3rem 0}
-.chart{margin:1.4rem 0}
+.chart{margin:1.8rem 0}
 .chart h3{font-size:1.05rem;margin:0 0 .3rem}
+.chart svg{min-width:40rem}
+.chart p{font-size:.9rem;color:#333;margin:.3rem 0;max-width:56rem}
 pre{white-space:pre-wrap;overflow-wrap:anywhere;font-size:.8rem}
 footer{margin-top:2.5rem;font-size:.9rem;color:#333}
 @media (max-width:44rem){
@@ -75,6 +77,7 @@ footer{margin-top:2.5rem;font-size:.9rem;color:#333}
  .wide{overflow:visible}
  .poses{grid-template-columns:repeat(4,1fr)}
  details{display:none}
+ .chart svg{min-width:0;max-height:250mm}
  a{color:inherit;text-decoration:none}
  *{print-color-adjust:exact;-webkit-print-color-adjust:exact}
 }

@@ -224,12 +224,42 @@ Html renderFibers(const Json& summary) {
   return renderIfAny(table);
 }
 
+/// Who changed the body's energy.
+Html renderWork(const Json& summary) {
+  static const std::vector<std::pair<const char*, const char*>> rows = {
+      {"muscles_j", "Muscles"},
+      {"actuators_j", "Torque actuators and reserves"},
+      {"residuals_j", "Residuals at the pelvis"},
+      {"ground_reactions_j", "Ground reactions"},
+      {"energy_change_j", "Change of kinetic and potential energy"},
+      {"imbalance_j", "Not accounted for"}};
+  const Json& work = findMember(summary, {"work"});
+  if (!work.is_object()) {
+    return {};
+  }
+  HtmlTable table("Work over the gait cycle, or over what was analysed of it",
+                  {{"By"}, {"Work in J", true}});
+  for (const auto& [name, title] : rows) {
+    table.addRow({text(title), renderNumber(work, name)});
+  }
+  return table.render();
+}
+
+std::string joinWords(const Json& words) {
+  std::string joined;
+  for (const Json& word : words) {
+    joined += (joined.empty() ? "" : ", ") + (word.is_string() ? word.get<std::string>() : "");
+  }
+  return joined;
+}
+
 Html renderMuscleControl(const Json& summary) {
   const Json& quality = findMember(summary, {"quality"});
   return renderMoments(summary) +
          renderActuators("Residuals at the pelvis", findMember(quality, {"residuals"})) +
          renderJointReserves(findMember(quality, {"joint_reserves"})) +
-         renderActuators("Reserves", findMember(quality, {"reserves"})) + renderFibers(summary);
+         renderActuators("Reserves", findMember(quality, {"reserves"})) + renderFibers(summary) +
+         renderWork(summary);
 }
 
 Html renderStaticOptimization(const Json& summary) {
@@ -256,6 +286,39 @@ Html renderStageTables(const std::string& stage, const Json& summary) {
     return renderStaticOptimization(summary);
   }
   return stage == "cmc" ? renderMuscleControl(summary) : Html();
+}
+
+Html renderEmg(const Json& summary) {
+  HtmlTable table("Times of activity, measured and simulated",
+                  {{"Channel"},
+                   {"Muscles"},
+                   {"Side"},
+                   {"Both on or both off, % of the cycle", true},
+                   {"Onset later by, % of the cycle", true},
+                   {"End later by, % of the cycle", true},
+                   {"Largest correlation", true},
+                   {"at a lag of, % of the cycle", true}});
+  for (const Json& channel : findMember(summary, {"emg", "comparison"})) {
+    table.addRow({text(findWords(channel, {"channel"})),
+                  text(joinWords(findMember(channel, {"muscles"}))),
+                  text(findWords(channel, {"side"})),
+                  renderNumber(channel, "overlap", 100),
+                  renderNumber(channel, "onset_difference_percent"),
+                  renderNumber(channel, "offset_difference_percent"),
+                  renderNumber(channel, "correlation"),
+                  renderNumber(channel, "lag_percent")});
+  }
+  if (table.empty()) {
+    return {};
+  }
+  return element("section",
+                 {{"id", "emg"}},
+                 element("h2", "Comparison with EMG") + table.render() +
+                     element("p",
+                             "A muscle counts as on above 20 % of its peak. Positive differences "
+                             "and lags mean that the simulation is later than the measurement; an "
+                             "electromechanical delay is part of them. Amplitudes of surface EMG "
+                             "are arbitrary and are not compared."));
 }
 
 }  // namespace gaitmill

@@ -84,6 +84,34 @@ TEST_F(ReportTest, ListsMarkersWorstFirst) {
             std::string::npos);
 }
 
+TEST_F(ReportTest, ComparesWithEmg) {
+  const std::string page = render(R"({"emg": {"comparison": [
+      {"channel": "GAS", "muscles": ["gasmed_r", "gaslat_r"], "side": "right", "overlap": 0.87,
+       "onset_difference_percent": -3, "offset_difference_percent": null, "correlation": 0.91,
+       "lag_percent": 4}]}})");
+  EXPECT_NE(page.find("<th scope=\"row\">GAS</th><td>gasmed_r, gaslat_r</td><td>right</td>"
+                      "<td class=\"number\">87.0</td><td class=\"number\">-3.00</td>"
+                      "<td class=\"number\">\u2013</td>"),
+            std::string::npos);
+}
+
+TEST_F(ReportTest, DrawsItsFiguresAndEscapesTheirWords) {
+  Figure figure;
+  figure.name = "moments";
+  figure.title = "Moments <script>";
+  figure.caption = "Of <b>joints</b>.";
+  figure.panels = {{"knee", "Knee <script>", {"Cycle", "%"}, {"Moment", "N.m"}, {}, {}, ""}};
+  figure.panels[0].series.push_back({"<script>", SeriesRole::kPlain});
+  figure.panels[0].series[0].x = {0, 1};
+  figure.panels[0].series[0].y = {0, 1};
+  content_.figures = {figure};
+  const std::string page = render();
+  EXPECT_EQ(count(page, "<svg"), 1U + count(page, "<svg x="));
+  EXPECT_NE(page.find("<h3>Moments &lt;script&gt;</h3>"), std::string::npos);
+  EXPECT_NE(page.find("<p>Of &lt;b&gt;joints&lt;/b&gt;.</p>"), std::string::npos);
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+}
+
 TEST_F(ReportTest, NamesItsOriginWithHashes) {
   content_.provenance.provenance = "81c4";
   content_.provenance.version = "0.1.0 abc";

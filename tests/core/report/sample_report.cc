@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/text.h"
+#include "core/figure/job_figures.h"
 #include "core/io/files.h"
 #include "core/pipeline/pipeline.h"
 #include "core/render/picture.h"
@@ -76,6 +77,9 @@ void writeSampleReport(const std::string& path) {
   ReportContent content;
   content.provenance = makeProvenance();
   content.results = &results;
+  for (const FigureInfo& info : listFigures(results)) {
+    content.figures.push_back(makeFigure(results, info.name));
+  }
   content.images = paintInstants(data, results);
   writeFile(path, renderReport(content));
 }

@@ -11,7 +11,8 @@ const [reportPath, chromium, folder] = process.argv.slice(2);
 const reportUrl = pathToFileURL(reportPath).href;
 const kWidths = [400, 800, 1280];  // [px] a phone, a tablet, a desk
 const kContrast = 4.5;             // WCAG 2.1, 1.4.3
-const kPages = {A4: [4, 24], Letter: [4, 24]};
+const kPages = {A4: [10, 40], Letter: [10, 40]};
+const kCharts = 10;
 
 const findings = [];
 const expect = (holds, sentence) => holds || findings.push(sentence);
@@ -127,7 +128,6 @@ async function checkPaper(page) {
   }
 }
 
-const kCharts = 0;
 const profile = await mkdtemp(join(tmpdir(), 'report_browser_'));
 const browser = await puppeteer.launch({
   executablePath: chromium,
