@@ -8,15 +8,11 @@
 #include <vector>
 
 #include "core/analysis/quality_check.h"
-#include "core/figure/svg.h"
+#include "core/figure/numbers.h"
 
 namespace gaitmill {
 
 namespace {
-
-// As wide as a page of paper is at the size of its words, so that a chart's words are readable
-// there.
-constexpr double kChartWidth = 800;  // [px]
 
 struct VerdictLook {
   const char* symbol;
@@ -209,12 +205,6 @@ Html renderFigure(double value, double scale) {
   return text(std::isfinite(value) ? formatFigure(value * scale) : "\u2013");
 }
 
-std::string displayUnit(const std::string& unit) {
-  static const std::map<std::string, std::string> shown = {{"N.m", "N\u00b7m"}, {"deg", "\u00b0"}};
-  const auto found = shown.find(unit);
-  return found == shown.end() ? unit : found->second;
-}
-
 std::string stageTitle(const std::string& stage) {
   for (const StageTitle& known : kStageTitles) {
     if (stage == known.stage) {
@@ -307,23 +297,6 @@ Html renderStage(const std::string& stage, const Json& summary) {
   return element("section",
                  {{"id", stage}},
                  element("h2", text(stageTitle(stage) + " ") + renderVerdict(verdict)) + content);
-}
-
-Html renderFigures(const std::vector<Figure>& figures) {
-  SvgOptions options;
-  options.width = kChartWidth;
-  Html charts;
-  for (const Figure& figure : figures) {
-    // On a phone a chart keeps a legible size and scrolls by itself.
-    const Html chart = element(
-        "div",
-        {{"class", "wide"}, {"role", "region"}, {"tabindex", "0"}, {"aria-label", figure.title}},
-        trusted(renderSvg(figure, options)));
-    charts += element("section",
-                      {{"class", "chart"}},
-                      element("h3", figure.title) + chart + element("p", figure.caption));
-  }
-  return charts.empty() ? Html() : element("section", element("h2", "Figures") + charts);
 }
 
 Html renderWarnings(const Json& summary) {

@@ -17,8 +17,6 @@ Html renderVerdict(const std::string& verdict);
 /// "1.84", "12.3", "120": three digits; "–" for what is not a number. @param scale  to the unit
 /// shown
 Html renderFigure(double value, double scale = 1);
-/// Units as the field writes them: "N·m", "°".
-std::string displayUnit(const std::string& unit);
 /// "ik" -> "Inverse kinematics"
 std::string stageTitle(const std::string& stage);
 

@@ -70,14 +70,16 @@ footer{margin-top:2.5rem;font-size:.9rem;color:#333}
  h1{font-size:16pt}h2{font-size:12.5pt;break-after:avoid;margin-top:1.4em}
  table{font-size:8.5pt}
  thead{display:table-header-group}
- tr,figure,.chart,.overall,.verdict{break-inside:avoid}
+ tr,figure,.overall,.verdict{break-inside:avoid}
  caption,thead,.chart h3{break-after:avoid}
  tbody tr:first-child,tbody tr:nth-child(2),.advice{break-before:avoid}
  th,td{padding:.25rem .45rem}
  .wide{overflow:visible}
  .poses{grid-template-columns:repeat(4,1fr)}
  details{display:none}
- .chart svg{min-width:0;max-height:250mm}
+ .chart svg{min-width:0}
+ .chart{break-inside:auto}
+ .chart .wide{break-inside:avoid}
  a{color:inherit;text-decoration:none}
  *{print-color-adjust:exact;-webkit-print-color-adjust:exact}
 }

@@ -100,8 +100,10 @@ TEST_F(ReportTest, DrawsItsFiguresAndEscapesTheirWords) {
   figure.name = "moments";
   figure.title = "Moments <script>";
   figure.caption = "Of <b>joints</b>.";
-  figure.panels = {{"knee", "Knee <script>", {"Cycle", "%"}, {"Moment", "N.m"}, {}, {}, ""}};
-  figure.panels[0].series.push_back({"<script>", SeriesRole::kPlain});
+  figure.panels.resize(1);
+  figure.panels[0].title = "Knee <script>";
+  figure.panels[0].series.resize(1);
+  figure.panels[0].series[0].name = "<script>";
   figure.panels[0].series[0].x = {0, 1};
   figure.panels[0].series[0].y = {0, 1};
   content_.figures = {figure};

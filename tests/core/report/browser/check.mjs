@@ -11,7 +11,7 @@ const [reportPath, chromium, folder] = process.argv.slice(2);
 const reportUrl = pathToFileURL(reportPath).href;
 const kWidths = [400, 800, 1280];  // [px] a phone, a tablet, a desk
 const kContrast = 4.5;             // WCAG 2.1, 1.4.3
-const kPages = {A4: [10, 40], Letter: [10, 40]};
+const kPages = {A4: [12, 30], Letter: [12, 30]};
 const kCharts = 10;
 
 const findings = [];
@@ -51,7 +51,7 @@ function inspect() {
     images: [...document.images].map((image) => ({
       alt: image.alt, width: image.naturalWidth, decoded: image.complete && image.naturalWidth > 0,
     })),
-    charts: [...document.querySelectorAll('svg')].map((svg) => ({
+    charts: [...document.querySelectorAll('.chart svg:not(svg svg)')].map((svg) => ({
       width: svg.getBoundingClientRect().width, height: svg.getBoundingClientRect().height,
       named: svg.getAttribute('role') === 'img' && !!svg.getAttribute('aria-label'),
     })),
