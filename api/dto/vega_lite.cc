@@ -21,14 +21,16 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kSchema = "https://vega.github.io/schema/vega-lite/v5.json";
-constexpr double kWidth = 960;         // of all panels side by side [px]
-constexpr double kAround = 62;         // of a panel beside its plot: axis and gap [px]
-constexpr double kCaptionWidth = 720;  // programs without fonts take texts for wider [px]
-constexpr double kBelow = 42;          // of a panel below its plot: axis and gap [px]
-constexpr double kNarrow = 230;        // below this a plot has no room for labels of guides [px]
-constexpr double kTitleSize = 12;      // of panels [px]
-constexpr double kNoteSize = 10;       // [px]
-constexpr double kTitleLine = 14;      // from one line of a title to the next [px]
+constexpr double kWidth = 960;          // of all panels side by side [px]
+constexpr double kAround = 62;          // of a panel beside its plot: axis and gap [px]
+constexpr double kCaptionWidth = 720;   // programs without fonts take texts for wider [px]
+constexpr double kBelow = 52;           // of a panel below its plot: axis and gap [px]
+constexpr double kNarrow = 230;         // below this a plot has no room for labels of guides [px]
+constexpr double kTitleSize = 12;       // of panels [px]
+constexpr double kNoteSize = 10;        // [px]
+constexpr double kTurn = 65;            // of categories [deg]
+constexpr double kTurnedHeight = 0.91;  // sine of it
+constexpr double kTitleLine = 14;       // from one line of a title to the next [px]
 constexpr const char* kGuide = "#555555";
 constexpr const char* kQuiet = "#555555";
 
@@ -59,6 +61,17 @@ StyleScales makeScales(const std::vector<LegendEntry>& legend) {
     dashes.push_back(entry.style.dash.empty() ? json{1, 0} : json(entry.style.dash));
   }
   return {{{"domain", names}, {"range", colors}}, {{"domain", names}, {"range", dashes}}};
+}
+
+/// How far turned categories reach below their axis [px]; 0 without any.
+double findCategoryHeight(const Panel& panel) {
+  double longest = 0;
+  for (const Series& series : panel.series) {
+    for (const std::string& category : series.categories) {
+      longest = std::max(longest, estimateTextWidth(category, kNoteSize));
+    }
+  }
+  return kTurnedHeight * longest;
 }
 
 /// One panel as a layered view.
@@ -95,25 +108,36 @@ class PanelView {
   }
 
   json renderTitle() const {
-    return {{"text", wrapText(panel_.title, kTitleSize, width_ + 40)},
-            {"subtitle", wrapText(panel_.note, kNoteSize, width_ + 40)},
-            {"anchor", "start"},
-            {"frame", "group"},
-            {"fontSize", kTitleSize},
-            {"subtitleFontSize", kNoteSize},
-            {"subtitleColor", kQuiet}};
+    json title = {{"text", wrapText(panel_.title, kTitleSize, width_ + 30)},
+                  {"anchor", "start"},
+                  {"frame", "group"},
+                  {"offset", 6},
+                  {"fontSize", kTitleSize}};
+    if (!panel_.note.empty()) {
+      title["subtitle"] = wrapText(panel_.note, kNoteSize, width_ + 40);
+      title["subtitleFontSize"] = kNoteSize;
+      title["subtitleColor"] = kQuiet;
+    }
+    return title;
+  }
+
+  // The ticks of our own pictures, with the digits that tell them apart.
+  static json renderTicks(const std::vector<double>& ticks) {
+    return {{"values", ticks}, {"format", "." + std::to_string(countDecimals(ticks)) + "f"}};
   }
 
   json xEncoding(const std::string& field) const {
     const Range data = findDataX(panel_);
     const double low = panel_.x.low.value_or(data.low);
     const double high = panel_.x.high.value_or(data.high);
+    json axis = renderTicks(makeTicks({low, high}, width_ > 240 ? 8 : 4));
+    axis["grid"] = false;
     return {{"field", field},
             {"type", "quantitative"},
             {"title", makeAxisTitle(panel_.x)},
             {"scale",
              {{"domain", {toAbscissa(low), toAbscissa(high)}}, {"nice", false}, {"zero", false}}},
-            {"axis", {{"values", makeTicks({low, high}, width_ > 240 ? 8 : 4)}, {"grid", false}}}};
+            {"axis", axis}};
   }
 
   json yEncoding(const std::string& field) const {
@@ -127,7 +151,7 @@ class PanelView {
              {{"domain", {toOrdinate(range.low), toOrdinate(range.high)}},
               {"nice", false},
               {"zero", false}}},
-            {"axis", {{"values", makeTicks(range, ticks)}}}};
+            {"axis", renderTicks(makeTicks(range, ticks))}};
   }
 
   // Colour and dash of the field "series", whose legends become one.
@@ -201,13 +225,14 @@ class PanelView {
         }
       }
     }
-    return {{"data", {{"values", renderRows(group)}}}, {"layer", layers}};
+    return {{"data", {{"values", renderRows(group)}}},
+            {"encoding", {{"x", xEncoding("x")}, {"color", colorEncoding()}}},
+            {"layer", layers}};
   }
 
   json renderSeries(std::size_t i) const {
     const Series& series = panel_.series[i];
-    json encoding = {
-        {"x", xEncoding("x")}, {"y", yEncoding(yField(i))}, {"color", colorEncoding()}};
+    json encoding = {{"y", yEncoding(yField(i))}};
     json mark = {{"clip", true}};
     if (series.mark == SeriesMark::kBand) {
       mark.update({{"type", "area"}, {"opacity", 0.2}});
@@ -244,7 +269,11 @@ class PanelView {
                              {"type", "nominal"},
                              {"sort", nullptr},
                              {"title", makeAxisTitle(panel_.x)},
-                             {"axis", {{"labelAngle", -50}, {"labelLimit", 220}}}}},
+                             {"axis",
+                              {{"labelAngle", -kTurn},
+                               {"labelLimit", 220},
+                               {"labelOverlap", false},
+                               {"titleY", findCategoryHeight(panel_) + 14 + height_}}}}},
                            {"xOffset", {{"field", "series"}, {"type", "nominal"}, {"sort", order}}},
                            {"y", yEncoding("y")},
                            {"color", colorEncoding()}};
@@ -301,14 +330,10 @@ double findRowSpacing(const Figure& figure, const std::vector<LegendEntry>& shar
   double categories = 0;
   for (const Panel& panel : figure.panels) {
     const double own =
-        kTitleLine * static_cast<double>(wrapText(panel.title, kTitleSize, width + 40).size() +
+        kTitleLine * static_cast<double>(wrapText(panel.title, kTitleSize, width + 30).size() +
                                          wrapText(panel.note, kNoteSize, width + 40).size());
     lines = std::max(lines, own + (shared.empty() && panel.series.size() > 1 ? 40 : 0));
-    for (const Series& series : panel.series) {
-      for (const std::string& category : series.categories) {
-        categories = std::max(categories, 0.8 * estimateTextWidth(category, kNoteSize));
-      }
-    }
+    categories = std::max(categories, findCategoryHeight(panel));
   }
   return kBelow + lines + categories;
 }
@@ -333,7 +358,7 @@ json renderConfig() {
             {"symbolStrokeWidth", 2},
             {"labelFontSize", 11},
             {"labelLimit", 320},
-            {"columns", 4}}}};
+            {"columns", 5}}}};
 }
 
 const char* markName(SeriesMark mark) {

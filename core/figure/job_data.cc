@@ -182,17 +182,17 @@ Axis JobData::makeXAxis() const {
   return hasCycle() ? Axis{"Gait cycle", "%", 0.0, 100.0} : Axis{"Time", "s"};
 }
 
-std::string JobData::describeAxis() const {
+std::string JobData::describeAxis(bool has_left) const {
   if (!hasCycle()) {
     return "Over time, because the forces show no whole gait cycle.";
   }
   std::string sentence = "From right foot strike to right foot strike";
-  if (left_.is_assumed) {
+  if (has_left && left_.is_assumed) {
     sentence += ", left curves from left foot strike, for as long as the right cycle lasts";
-  } else if (left_.main) {
+  } else if (has_left && left_.main) {
     sentence += ", left curves from left to left";
   }
-  sentence += ".";
+  sentence += "; what a record does not cover comes from the cycle before or after.";
   if (right_.all.size() > 1) {
     sentence += " Where a record covers several cycles: mean and standard deviation.";
   }

@@ -56,8 +56,8 @@ class JobData {
   bool hasCycle() const { return right_.main.has_value(); }
   /// "Gait cycle [%]" or "Time [s]".
   Axis makeXAxis() const;
-  /// What is to be said of the axis below every figure.
-  std::string describeAxis() const;
+  /// What is to be said of the axis below every figure; of the right leg's or of both.
+  std::string describeAxis(bool has_left = true) const;
   /// Body weight [N]; empty if the summary does not say.
   std::optional<double> findBodyWeight() const;
 

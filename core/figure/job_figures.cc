@@ -113,7 +113,9 @@ const std::vector<FigureBuilder>& builders() {
        buildMuscleWork},
       {"joint_reactions",
        "Joint reaction forces",
-       "Force on the distal body of a joint, in that body's frame.",
+       "Force on the distal body of a joint in that body's frame; downward compresses hip, knee "
+       "and "
+       "ankle.",
        4,
        {{"joint_reactions", ""}},
        buildJointReactions},

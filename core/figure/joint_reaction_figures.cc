@@ -61,7 +61,7 @@ struct ReactionQuantity {
 };
 constexpr ReactionQuantity kQuantities[] = {{"resultant", "resultant"},
                                             {"forward", "forward"},
-                                            {"down", "downward (compression)"},
+                                            {"down", "downward"},
                                             {"lateral", "lateral"}};
 
 }  // namespace

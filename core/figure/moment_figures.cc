@@ -223,7 +223,7 @@ void buildPaperFigure4(const JobData& data, Figure& figure) {
     figure.panels.push_back(
         makeComparisonPanel(data, joint.coordinate, Side::kRight, joint.title, joint.sign));
   }
-  figure.caption += " " + data.describeAxis();
+  figure.caption += " " + data.describeAxis(false);
 }
 
 void buildPaperSupplementalFigure4(const JobData& data, Figure& figure) {
@@ -231,7 +231,7 @@ void buildPaperSupplementalFigure4(const JobData& data, Figure& figure) {
     figure.panels.push_back(
         makePartsPanel(data, joint.coordinate, Side::kRight, joint.title, joint.sign));
   }
-  figure.caption += " " + data.describeAxis();
+  figure.caption += " " + data.describeAxis(false);
 }
 
 }  // namespace gaitmill

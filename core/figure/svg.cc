@@ -14,14 +14,17 @@ namespace gaitmill {
 
 namespace {
 
-constexpr double kGap = 8;          // between panels [px]
-constexpr double kAxisLeft = 48;    // tick labels and axis title left of the plot [px]
-constexpr double kRight = 12;       // beside the plot, for half a tick label [px]
-constexpr double kLine = 14;        // from one line of text to the next [px]
-constexpr double kTextSize = 11;    // [px]
-constexpr double kSmallSize = 9.5;  // tick labels, notes, guides [px]
-constexpr double kSample = 24;      // of a line in the legend [px]
-constexpr double kNarrow = 230;     // below this a plot has no room for labels of guides [px]
+constexpr double kGap = 8;              // between panels [px]
+constexpr double kAxisLeft = 48;        // tick labels and axis title left of the plot [px]
+constexpr double kRight = 12;           // beside the plot, for half a tick label [px]
+constexpr double kLine = 14;            // from one line of text to the next [px]
+constexpr double kTextSize = 11;        // [px]
+constexpr double kSmallSize = 9.5;      // tick labels, notes, guides [px]
+constexpr double kSample = 24;          // of a line in the legend [px]
+constexpr double kBoldSize = 12.5;      // of which bold titles are as wide [px]
+constexpr double kTurn = 65;            // of long categories [deg]
+constexpr double kTurnedHeight = 0.91;  // sine of it
+constexpr double kNarrow = 230;         // below this a plot has no room for labels of guides [px]
 constexpr const char* kFrame = "#8c8c8c";
 constexpr const char* kGrid = "#e4e4e4";
 constexpr const char* kZero = "#b0b0b0";
@@ -124,14 +127,14 @@ double findCategoryHeight(const PanelPlan& plan) {
   for (const std::string& category : plan.categories) {
     longest = std::max(longest, estimateTextWidth(category, kSmallSize));
   }
-  return plan.turnsCategories() ? 0.8 * longest + 12 : 16;
+  return plan.turnsCategories() ? kTurnedHeight * longest + 12 : 16;
 }
 
 PanelPlan planPanel(const Panel& panel, double width, bool has_own_legend) {
   PanelPlan plan;
   plan.panel = &panel;
   plan.width = width;
-  plan.title = wrapText(panel.title, kTextSize + 0.5, width - 4);
+  plan.title = wrapText(panel.title, kBoldSize, width - 4);
   plan.note = wrapText(panel.note, kSmallSize, width - 4);
   plan.categories = findCategories(panel);
   if (has_own_legend) {
@@ -202,7 +205,7 @@ class PanelPainter {
       canvas_.addText(
           {corner_.x - kAxisLeft + 11, corner_.y + 0.5 * size_.y},
           makeAxisTitle(panel_.y),
-          {fitSize(makeAxisTitle(panel_.y), size_.y + 30), "middle", kQuiet, false, -90});
+          {fitSize(makeAxisTitle(panel_.y), size_.y + 4), "middle", kQuiet, false, -90});
     }
   }
 
@@ -235,8 +238,9 @@ class PanelPainter {
     for (std::size_t i = 0; i < plan_.categories.size(); ++i) {
       const double x = corner_.x + (toDouble(i) + 0.5) * plan_.categoryWidth();
       if (plan_.turnsCategories()) {
-        canvas_.addText(
-            {x + 3, bottom + 9}, plan_.categories[i], {kSmallSize, "end", "#222222", false, -50});
+        canvas_.addText({x + 3, bottom + 9},
+                        plan_.categories[i],
+                        {kSmallSize, "end", "#222222", false, -kTurn});
       } else {
         canvas_.addText({x, bottom + 12}, plan_.categories[i], {kSmallSize, "middle"});
       }

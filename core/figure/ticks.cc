@@ -63,21 +63,30 @@ Range findRange(const Axis& axis, double data_low, double data_high, int ticks) 
 }
 
 std::vector<double> makeTicks(const Range& range, int ticks) {
-  const double step = findStep(range.high - range.low, ticks);
+  constexpr std::size_t kLeast = 3;
   std::vector<double> values;
-  for (double n = std::ceil(range.low / step - 1e-9); n * step <= range.high + 1e-9 * step; ++n) {
-    values.push_back(n == 0 ? 0 : n * step);
+  for (int wanted = ticks; values.size() < kLeast && wanted <= ticks + 4; ++wanted) {
+    const double step = findStep(range.high - range.low, wanted);
+    values.clear();
+    for (double n = std::ceil(range.low / step - 1e-9); n * step <= range.high + 1e-9 * step; ++n) {
+      values.push_back(n == 0 ? 0 : n * step);
+    }
   }
   return values;
 }
 
-std::vector<std::string> labelTicks(const std::vector<double>& ticks) {
+int countDecimals(const std::vector<double>& ticks) {
   const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1;
   int decimals = 0;
   while (decimals < 6 && std::abs(step * std::pow(10.0, decimals) -
                                   std::round(step * std::pow(10.0, decimals))) > 1e-6) {
     ++decimals;
   }
+  return decimals;
+}
+
+std::vector<std::string> labelTicks(const std::vector<double>& ticks) {
+  const int decimals = countDecimals(ticks);
   std::vector<std::string> labels;
   for (const double tick : ticks) {
     std::string label = formatFixed(tick, decimals);

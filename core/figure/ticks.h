@@ -22,7 +22,10 @@ Range findRange(const Axis& axis, double data_low, double data_high, int ticks);
 /// 30 or 45 for degrees would be rounder, but not for small angles.
 std::vector<double> makeTicks(const Range& range, int ticks);
 
-/// Tick labels with just the digits that tell them apart: "0.25", "1200".
+/// How many decimals tell the ticks apart: 2 for 0, 0.25, 0.5.
+int countDecimals(const std::vector<double>& ticks);
+
+/// Tick labels with just these decimals: "0.25", "1200".
 std::vector<std::string> labelTicks(const std::vector<double>& ticks);
 
 /// "Gait cycle [%]", "Activation".

@@ -38,9 +38,9 @@ TEST(VegaLite, HoldsEveryPanelWithTitlesAndUnits) {
   const json& panel = spec.at("concat").at(0);
   EXPECT_EQ(panel.at("title").at("text"), json::array({"Knee flexion"}));
   EXPECT_EQ(panel.at("title").at("subtitle"), json::array({"a note"}));
-  const json& line = panel.at("layer").at(0).at("layer").at(0);
-  EXPECT_EQ(line.at("encoding").at("x").at("title"), "Gait cycle [%]");
-  EXPECT_EQ(line.at("encoding").at("y").at("title"), "Angle [deg]");
+  const json& curves = panel.at("layer").at(0);
+  EXPECT_EQ(curves.at("encoding").at("x").at("title"), "Gait cycle [%]");
+  EXPECT_EQ(curves.at("layer").at(0).at("encoding").at("y").at("title"), "Angle [deg]");
 }
 
 TEST(VegaLite, SharesAbscissaeRoundsAndWritesNullForWhatIsNotANumber) {
@@ -53,8 +53,9 @@ TEST(VegaLite, SharesAbscissaeRoundsAndWritesNullForWhatIsNotANumber) {
 
 TEST(VegaLite, ColoursFollowTheRole) {
   const json spec = json::parse(renderVegaLite(makeSmallFigure()));
-  const json& lines = spec.at("concat").at(0).at("layer").at(0).at("layer");
-  const json& color = lines.at(1).at("encoding").at("color");
+  const json& curves = spec.at("concat").at(0).at("layer").at(0);
+  const json& lines = curves.at("layer");
+  const json& color = curves.at("encoding").at("color");
   EXPECT_EQ(lines.at(1).at("transform").at(0).at("calculate"), "\"left\"");
   EXPECT_EQ(color.at("scale").at("domain"), (json{"right", "left"}));
   EXPECT_EQ(color.at("scale").at("range"), (json{"#0072B2", "#D55E00"}));

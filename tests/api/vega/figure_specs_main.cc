@@ -6,9 +6,12 @@
 #include <string>
 
 #include "api/dto/vega_lite.h"
+#include "core/figure/comparison.h"
 #include "core/figure/job_figures.h"
 #include "core/figure/svg.h"
+#include "core/io/osim_reader.h"
 #include "core/pipeline/pipeline.h"
+#include "core/validation/validation.h"
 #include "tests/support/memory_results.h"
 #include "tests/support/sample_input.h"
 
@@ -36,6 +39,15 @@ void writeFigure(const std::string& folder, const Figure& figure) {
               picture.size());
 }
 
+void writeOverlays(const std::string& folder, const gaitmill::MemoryResults& source) {
+  for (const char* name : {"moments", "muscle_work"}) {
+    Figure overlay =
+        gaitmill::overlayFigures({{"walk <1>", &source}, {"walk & again", &source}}, name);
+    overlay.name = "overlay_" + overlay.name;
+    writeFigure(folder, overlay);
+  }
+}
+
 void writeSampleJob(const std::string& folder) {
   gaitmill::PipelineResult result =
       gaitmill::Pipeline().run(gaitmill::readSampleInput(),
@@ -46,6 +58,21 @@ void writeSampleJob(const std::string& folder) {
   for (const gaitmill::FigureInfo& info : gaitmill::listFigures(source)) {
     writeFigure(folder, gaitmill::makeFigure(source, info.name));
   }
+  writeOverlays(folder, source);
+}
+
+// The curves of one muscle stand for those of all.
+void writeValidation(const std::string& folder) {
+  const gaitmill::InputFile document =
+      gaitmill::readInput("models/rajagopal2016/rajagopal2016.osim");
+  const gaitmill::ModelSpec model = gaitmill::readOsim(document.bytes, document.name);
+  for (const gaitmill::FigureInfo& info : gaitmill::listValidationFigures(model)) {
+    if (info.name.rfind("muscle_curves_", 0) != 0 || info.name == "muscle_curves_soleus_r") {
+      Figure figure = gaitmill::makeValidationFigure(model, info.name, {1, 1000});
+      figure.name = "validation_" + figure.name;
+      writeFigure(folder, figure);
+    }
+  }
 }
 
 }  // namespace
@@ -54,6 +81,7 @@ int main(int argc, char** argv) {
   try {
     gaitmill::require(argc == 2, gaitmill::ErrorCode::kUsage, "usage: figure_specs FOLDER");
     writeSampleJob(argv[1]);
+    writeValidation(argv[1]);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "figure_specs: %s\n", error.what());
