@@ -273,7 +273,7 @@ class PanelView {
                               {{"labelAngle", -kTurn},
                                {"labelLimit", 220},
                                {"labelOverlap", false},
-                               {"titleY", findCategoryHeight(panel_) + 14 + height_}}}}},
+                               {"titleY", findCategoryHeight(panel_) + 14}}}}},
                            {"xOffset", {{"field", "series"}, {"type", "nominal"}, {"sort", order}}},
                            {"y", yEncoding("y")},
                            {"color", colorEncoding()}};

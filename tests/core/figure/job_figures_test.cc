@@ -253,6 +253,68 @@ TEST(JobFigures, ElectromyogramsPeakWhereActivationsDo) {
   EXPECT_NE(figure.caption.find("50 ms later"), std::string::npos);
 }
 
+// Channels are found by their muscles; a muscle without channel shows its activation alone.
+TEST(JobFigures, PaperFigure5HasTheEightGroups) {
+  const char* summary = R"({"gait_cycle_s": [0.2, 1.2],
+    "emg": {"channels": [{"channel": "A1", "muscles": ["glmax1_r", "glmax2_r"], "side": "right"}],
+            "comparison": [{"channel": "A1", "overlap": 0.85, "correlation": 0.931,
+                            "lag_percent": 2}]}})";
+  std::map<std::string, std::function<double(double)>> columns;
+  for (const char* muscle :
+       {"glmed1_r", "recfem_r", "vaslat_r", "bflh_r", "gaslat_r", "tibant_r", "soleus_r"}) {
+    columns[muscle] = [](double) {
+      return 0.1;
+    };
+  }
+  columns["glmax1_r"] = [](double) {
+    return 0.2;
+  };
+  columns["glmax2_r"] = [](double) {
+    return 0.4;
+  };
+  Tables tables;
+  tables["activations"] = makeTable(columns, "");
+  tables["emg"] = makeTable({{"A1",
+                              [](double t) {
+                                return 2 + wave(t);
+                              }}},
+                            "mV");
+  const Figure figure = makeFigure(makeResults(tables, summary), "paper_figure_5");
+  ASSERT_EQ(figure.panels.size(), 8U);
+  EXPECT_EQ(figure.panels[0].title, "Gluteus maximus");
+  EXPECT_EQ(figure.panels[0].note,
+            "on and off alike 85 % of the cycle; correlation 0.93 at a lag of 2 %");
+  const Series& mean = findSeries(figure.panels[0], "simulated activation", SeriesMark::kLine);
+  EXPECT_NEAR(mean.y[50], 0.3, tol(1e-12));
+  EXPECT_EQ(figure.panels[0].series.size(), 2U);
+  EXPECT_EQ(figure.panels[7].title, "Soleus");
+  EXPECT_EQ(figure.panels[7].series.size(), 1U);
+}
+
+TEST(JobFigures, MusclePartsAddUp) {
+  Tables tables;
+  tables["muscle_moments"] = makeTable({{"hip_flexion_l_muscle_moment",
+                                         [](double) {
+                                           return 5.0;
+                                         }},
+                                        {"hip_flexion_l_active_moment",
+                                         [](double) {
+                                           return 3.0;
+                                         }},
+                                        {"hip_flexion_l_passive_moment",
+                                         [](double) {
+                                           return 2.0;
+                                         }}},
+                                       "N.m");
+  const Figure figure = makeFigure(makeResults(tables), "moments_active_passive");
+  ASSERT_EQ(figure.panels.size(), 1U);
+  const Panel& panel = figure.panels.front();
+  EXPECT_EQ(panel.title, "Left hip flexion");
+  EXPECT_EQ(findSeries(panel, "total", SeriesMark::kLine).y[10],
+            findSeries(panel, "active", SeriesMark::kLine).y[10] +
+                findSeries(panel, "passive", SeriesMark::kLine).y[10]);
+}
+
 TEST(JobFigures, WorkOfBothSignsStandsInOnePlace) {
   TimeSeries work;
   work.labels = {"soleus_r_fiber_positive_work",
