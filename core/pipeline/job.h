@@ -105,7 +105,7 @@ void takeOver(Stage stage, Job& job);
 /// The gait cycle of the right foot: as set, else the first two strikes in the forces; empty if
 /// there are none.
 std::optional<GaitCycle> findGaitCycle(const Job& job);
-/// Strikes and toe-offs in the forces, and the cycles of one foot that the motion covers.
+/// Strikes and toe-offs in the forces, and the cycles of one foot that the kinematics cover.
 std::vector<GaitEvent> findGaitEvents(const Job& job);
 std::vector<GaitCycle> findGaitCycles(const Job& job, Foot foot);
 

@@ -58,8 +58,8 @@ std::vector<GaitEvent> findGaitEvents(const Job& job) {
 std::vector<GaitCycle> findGaitCycles(const Job& job, Foot foot) {
   std::vector<GaitCycle> cycles;
   for (const GaitCycle& cycle : findGaitCycles(findGaitEvents(job), foot)) {
-    const bool covered = !job.motion.time.empty() && cycle.start >= job.motion.time.front() &&
-                         cycle.end <= job.motion.time.back();
+    const std::vector<double>& time = job.measured_coordinates.time;
+    const bool covered = !time.empty() && cycle.start >= time.front() && cycle.end <= time.back();
     if (covered) {
       cycles.push_back(cycle);
     }
