@@ -127,7 +127,7 @@ void buildResiduals(const JobData& data, Figure& figure) {
     panel.note = describePeaks(residuals, plan);
     figure.panels.push_back(std::move(panel));
   }
-  figure.caption += " " + data.describeAxis();
+  figure.caption += " " + data.describeAxis(false);
 }
 
 void buildReserves(const JobData& data, Figure& figure) {

@@ -148,7 +148,7 @@ std::string nameMuscles(const std::vector<std::string>& muscles) {
   return side.empty() ? name : name + ", " + side;
 }
 
-std::string describeEmg(const JobData& data) {
+std::string describeEmg(const JobData& data, bool has_left) {
   std::string sentence =
       " Each electromyogram is scaled to the peak of the activation over what is shown "
       "(Rajagopal et al. 2016).";
@@ -160,7 +160,7 @@ std::string describeEmg(const JobData& data) {
   } else {
     sentence += " No electromechanical delay is taken into account.";
   }
-  return sentence + " " + data.describeAxis();
+  return sentence + " " + data.describeAxis(has_left);
 }
 
 /// The eight of the paper, right leg; the first muscle finds the channel.
@@ -200,7 +200,7 @@ void buildActivationsEmg(const JobData& data, Figure& figure) {
     panel.title += " (" + channel.name + ")";
     figure.panels.push_back(std::move(panel));
   }
-  figure.caption += describeEmg(data);
+  figure.caption += describeEmg(data, true);
 }
 
 void buildPaperFigure5(const JobData& data, Figure& figure) {
@@ -217,7 +217,7 @@ void buildPaperFigure5(const JobData& data, Figure& figure) {
           makeChannelPanel(data, {findChannel(channels, muscles.front()), muscles}, group.title));
     }
   }
-  figure.caption += describeEmg(data);
+  figure.caption += describeEmg(data, false);
 }
 
 }  // namespace gaitmill

@@ -188,7 +188,7 @@ void buildMarkerErrors(const JobData& data, Figure& figure) {
                 frames);
   addLimit(data, "marker_error_rms", "RMS of a frame", 1, frames);
   figure.panels.push_back(std::move(frames));
-  figure.caption += " " + data.describeAxis();
+  figure.caption += " " + data.describeAxis(false);
 }
 
 }  // namespace gaitmill
