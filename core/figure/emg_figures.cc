@@ -1,5 +1,6 @@
 // Figures of activations beside electromyograms.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -137,15 +138,29 @@ Panel makeChannelPanel(const JobData& data, const Channel& channel, const std::s
   return panel;
 }
 
-/// "Soleus", "Gluteus maximus" for the mean of its three parts; with the side.
+/// "Soleus, right"; "Gluteus maximus, right" for the mean of its parts; "Semimembranosus,
+/// semitendinosus, right".
 std::string nameMuscles(const std::vector<std::string>& muscles) {
-  const SidedName first = splitSide(muscles.front());
-  std::string name = findMuscleName(first.base).display;
-  if (muscles.size() > 1) {
-    name = name.substr(0, name.find(','));
+  std::string names;
+  for (const std::string& muscle : muscles) {
+    std::string name = findMuscleName(splitSide(muscle).base).display;
+    if (muscles.size() > 1) {
+      name = name.substr(0, name.find(','));
+    }
+    if (names.empty()) {
+      names = name;
+      continue;
+    }
+    name.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(name.front())));
+    // Parts of one muscle follow each other.
+    const bool is_part =
+        names.size() >= name.size() &&
+        names.compare(names.size() - name.size() + 1, name.size() - 1, name, 1, name.size() - 1) ==
+            0;
+    names += is_part ? "" : ", " + name;
   }
-  const std::string side = sideWord(first.side);
-  return side.empty() ? name : name + ", " + side;
+  const std::string side = sideWord(splitSide(muscles.front()).side);
+  return side.empty() ? names : names + ", " + side;
 }
 
 std::string describeEmg(const JobData& data, bool has_left) {

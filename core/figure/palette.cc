@@ -47,7 +47,7 @@ SeriesStyle findRoleStyle(SeriesRole role, std::size_t index) {
     case SeriesRole::kPassive:
       return {kPurple, {2, 2}};
     case SeriesRole::kEmg:
-      return {kGrey, {4, 2}};
+      return {kGrey, {}};
   }
   return makePlainStyle(index);
 }

@@ -253,6 +253,20 @@ TEST(JobFigures, ElectromyogramsPeakWhereActivationsDo) {
   EXPECT_NE(figure.caption.find("50 ms later"), std::string::npos);
 }
 
+TEST(JobFigures, ChannelsAreNamedByTheirMuscles) {
+  const char* summary = R"({"emg": {"channels": [
+    {"channel": "GMAX", "muscles": ["glmax1_l", "glmax2_l"], "side": "left"},
+    {"channel": "MH", "muscles": ["semimem_r", "semiten_r"], "side": "right"}]}})";
+  Tables tables;
+  tables["activations"] = makeTable(
+      {{"glmax1_l", wave}, {"glmax2_l", wave}, {"semimem_r", wave}, {"semiten_r", wave}}, "");
+  tables["emg"] = makeTable({{"GMAX", wave}, {"MH", wave}}, "mV");
+  const Figure figure = makeFigure(makeResults(tables, summary), "activations_emg");
+  ASSERT_EQ(figure.panels.size(), 2U);
+  EXPECT_EQ(figure.panels[0].title, "Gluteus maximus, left (GMAX)");
+  EXPECT_EQ(figure.panels[1].title, "Semimembranosus, semitendinosus, right (MH)");
+}
+
 // Channels are found by their muscles; a muscle without channel shows its activation alone.
 TEST(JobFigures, PaperFigure5HasTheEightGroups) {
   const char* summary = R"({"gait_cycle_s": [0.2, 1.2],
