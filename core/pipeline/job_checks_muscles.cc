@@ -91,6 +91,20 @@ void checkFibers(JobQuality& quality) {
   }
 }
 
+/// Shares of the work that muscles, actuators, residuals and ground do, whatever its sign.
+void checkWork(const Job& job, JobQuality& quality) {
+  if (!job.analysis) {
+    return;
+  }
+  const WorkBalance& work = job.analysis->balance;
+  const double all = std::abs(work.muscles) + std::abs(work.actuators) + std::abs(work.residuals) +
+                     std::abs(work.ground);
+  if (all > 0) {
+    add("residual_work", 100 * std::abs(work.residuals) / all, "", quality);
+    add("work_imbalance", 100 * std::abs(work.imbalance()) / all, "", quality);
+  }
+}
+
 }  // namespace
 
 void checkSo(const Job& job, JobQuality& quality) {
@@ -125,6 +139,7 @@ void checkCmc(const Job& job, JobQuality& quality) {
   checkMoments(quality);
   checkSaturation("saturation", quality.saturations, quality);
   checkFibers(quality);
+  checkWork(job, quality);
   checkFeasible("cmc", job.cmc->infeasible_windows.size(), job.cmc->counters.windows, quality);
   add("cmc_finished", job.cmc->stop == CmcStop::kDiverged ? 1 : 0, "", quality);
 }

@@ -516,6 +516,46 @@ const std::vector<QualityRule>& qualityRules() {
        "Check the joint angles against the literature. Calibrate the tendon slack lengths of the "
        "scaled model (gaitmill model calibrate), {worst} first."},
       {"cmc",
+       "residual_work",
+       "%",
+       5,
+       kNever,
+       "gaitmill: work that nobody did, held to the 5 % that Hicks et al. 2015 grant to residual "
+       "forces",
+       kNoFailure,
+       "of all work over the cycle, the residuals at the pelvis do",
+       kResidualForceCause,
+       kResidualForceFix},
+      {"cmc",
+       "work_imbalance",
+       "%",
+       5,
+       kNever,
+       "gaitmill: energy is conserved; stored rows close the balance to about 1 %",
+       kNoFailure,
+       "of all work over the cycle, no force accounts for",
+       "The forces as stored do not explain the change of the body's energy: the simulation takes "
+       "steps that are too long for it, or a contact changes within a step.",
+       "Lower cmc.integration_step_s, and filter the ground reactions "
+       "(trial.force_lowpass_cutoff_hz)."},
+      {"cmc",
+       "emg_timing",
+       "%",
+       40,
+       kNever,
+       "gaitmill: the paper compares by eye; muscles that are on and off by chance disagree half "
+       "of "
+       "the time",
+       kNoFailure,
+       "on the mean of all channels, muscles are on while their EMG is off, or off while it is on, "
+       "in share of the cycle, for",
+       "The simulated muscles work at other times than the measured ones, {worst} most of all: "
+       "electrodes that hear a neighbour, channels that are mapped to the wrong muscle, EMG and "
+       "motion that are not synchronous, or co-contraction, which a minimum of effort never shows.",
+       "Look at the figure of activations and EMG. Check the mapping under emg.channels and the "
+       "side, and the synchronisation of the recordings; state the electromechanical delay if the "
+       "simulation is early throughout."},
+      {"cmc",
        "cmc_infeasible",
        "%",
        0,

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstddef>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -24,41 +23,46 @@ bool isLeftOut(const Figure& figure) {
   return std::find(std::begin(kLeftOut), std::end(kLeftOut), figure.name) != std::end(kLeftOut);
 }
 
-/// Rows of panels that fit on a page below their heading; narrow panels are lower.
-std::size_t findRowsPerPage(const Figure& figure) {
-  return figure.columns <= 1 ? 2 : figure.columns == 2 ? 3 : 4;
+/// Rows of panels in one piece: few enough that pieces fill pages well.
+int findRowsPerPiece(const Figure& figure) {
+  return figure.columns <= 1 ? 2 : figure.columns <= 3 ? 3 : 4;
 }
 
-/// The figure in pieces of a page each: paper cannot break a drawing.
-std::vector<Figure> splitIntoPages(const Figure& figure) {
-  const std::size_t panels =
-      findRowsPerPage(figure) * static_cast<std::size_t>(std::max(1, figure.columns));
-  std::vector<Figure> pages;
-  for (std::size_t first = 0; first < figure.panels.size(); first += panels) {
-    const auto begin = figure.panels.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto end = figure.panels.begin() +
-                     static_cast<std::ptrdiff_t>(std::min(first + panels, figure.panels.size()));
-    Figure page;
-    page.name = figure.name;
-    page.title = figure.title;
-    page.caption = figure.caption;
-    page.columns = figure.columns;
-    page.panels.assign(begin, end);
-    pages.push_back(std::move(page));
+int divideRoundingUp(int number, int by) {
+  return (number + by - 1) / by;
+}
+
+/// The figure in pieces of whole rows, about equally many each: paper cannot break a drawing.
+std::vector<Figure> splitForPaper(const Figure& figure) {
+  const int columns = std::max(1, figure.columns);
+  const int count = static_cast<int>(figure.panels.size());
+  const int rows = divideRoundingUp(count, columns);
+  const int pieces = std::max(1, divideRoundingUp(rows, findRowsPerPiece(figure)));
+  const int panels = divideRoundingUp(rows, pieces) * columns;
+  std::vector<Figure> split;
+  for (int first = 0; first < count; first += panels) {
+    Figure piece = figure;
+    piece.panels.assign(figure.panels.begin() + first,
+                        figure.panels.begin() + std::min(first + panels, count));
+    split.push_back(std::move(piece));
   }
-  return pages;
+  return split;
 }
 
 /// On a phone a chart keeps a legible size and scrolls by itself.
 Html renderChart(const Figure& figure) {
   SvgOptions options;
   options.width = kChartWidth;
-  Html chart = element("h3", figure.title) + element("p", figure.caption);
-  for (const Figure& page : splitIntoPages(figure)) {
-    chart += element(
+  // The first piece stays with the words above it.
+  Html words = element("h3", figure.title) + element("p", figure.caption);
+  Html chart;
+  for (const Figure& piece : splitForPaper(figure)) {
+    const Html drawing = element(
         "div",
         {{"class", "wide"}, {"role", "region"}, {"tabindex", "0"}, {"aria-label", figure.title}},
-        trusted(renderSvg(page, options)));
+        trusted(renderSvg(piece, options)));
+    chart += element("div", {{"class", "piece"}}, words + drawing);
+    words = Html();
   }
   return element("section", {{"class", "chart"}}, chart);
 }

@@ -15,7 +15,8 @@ h2{font-size:1.25rem;line-height:1.3;margin:2.2rem 0 .6rem;border-bottom:2px sol
 a{color:#0b4f8a}
 code{font-family:ui-monospace,"Liberation Mono",monospace;font-size:.85em;overflow-wrap:anywhere}
 .verdict{display:inline-block;padding:.05em .55em;border:1px solid;border-radius:1em;
- font-size:.85rem;font-weight:600;line-height:1.4;white-space:nowrap}
+ font-size:.85em;font-weight:600;line-height:1.4;white-space:nowrap}
+h2 .verdict{font-size:.7em;vertical-align:.15em}
 .verdict.pass{color:#14532d;background:#e6f4ea}
 .verdict.warn{color:#6b3f00;background:#fff0cf}
 .verdict.fail{color:#8b1414;background:#fde5e3}
@@ -60,7 +61,8 @@ footer{margin-top:2.5rem;font-size:.9rem;color:#333}
  .checks tr{border-bottom:1px solid #8d99a6;padding:.4rem 0}
  .checks th,.checks td{border-bottom:0;padding:.15rem .2rem;text-align:left}
  .checks td[data-column]::before{content:attr(data-column) ": ";color:#4a5560}
- .checks .who,.checks small{display:inline}
+ .checks caption{display:block}
+ .checks .who{display:inline}
  .checks .who::before{content:"("}.checks .who::after{content:")"}
  .advice td{padding:.4rem .7rem}
 }
@@ -78,8 +80,8 @@ footer{margin-top:2.5rem;font-size:.9rem;color:#333}
  .poses{grid-template-columns:repeat(4,1fr)}
  details{display:none}
  .chart svg{min-width:0}
- .chart{break-inside:auto}
- .chart .wide{break-inside:avoid}
+ .piece{break-inside:avoid}
+ figcaption{font-size:8pt}
  a{color:inherit;text-decoration:none}
  *{print-color-adjust:exact;-webkit-print-color-adjust:exact}
 }

@@ -10,6 +10,7 @@ import puppeteer from 'puppeteer-core';
 const [reportPath, chromium, folder] = process.argv.slice(2);
 const reportUrl = pathToFileURL(reportPath).href;
 const kWidths = [400, 800, 1280];  // [px] a phone, a tablet, a desk
+const kShown = 6000;               // [px] of the page's top in screenshots
 const kContrast = 4.5;             // WCAG 2.1, 1.4.3
 const kPages = {A4: [12, 30], Letter: [12, 30]};
 const kCharts = 10;
@@ -106,7 +107,8 @@ async function checkWidths(page) {
     await page.setViewport({width, height: 900});
     const wide = await page.evaluate(() => document.documentElement.scrollWidth);
     expect(wide <= width, `the page is ${wide} px wide on a screen of ${width} px`);
-    await page.screenshot({path: join(folder, `screen_${width}.png`), fullPage: true});
+    await page.screenshot(
+        {path: join(folder, `screen_${width}.png`), clip: {x: 0, y: 0, width, height: kShown}});
   }
 }
 
