@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/analysis/quality_check.h"
-#include "core/figure/numbers.h"
 
 namespace gaitmill {
 
@@ -106,7 +105,8 @@ Html renderInputs(const std::vector<ReportInput>& inputs) {
 }
 
 std::string renderWithUnit(const Html& figure, const std::string& unit) {
-  return figure.markup() + (unit.empty() ? "" : "\u00a0" + text(displayUnit(unit)).markup());
+  return figure.markup() +
+         (unit.empty() ? "" : "\u00a0" + text(unit == "N.m" ? "N\u00b7m" : unit).markup());
 }
 
 Html renderLimit(const Json& check, const char* which) {
