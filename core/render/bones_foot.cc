@@ -20,11 +20,11 @@ struct Metatarsal {
 
 // From the great to the little toe. The heads stand along the joint's oblique axis.
 const std::array<Metatarsal, 5> kMetatarsals = {{
-    {{0.112, 0.020, -0.024}, {0.174, 0.004, -0.029}, 0.0105},
-    {{0.106, 0.027, -0.008}, {0.181, 0.004, -0.007}, 0.0072},
-    {{0.102, 0.025, 0.005}, {0.174, 0.003, 0.011}, 0.0068},
-    {{0.094, 0.020, 0.016}, {0.163, 0.002, 0.026}, 0.0066},
-    {{0.082, 0.013, 0.028}, {0.149, 0.001, 0.040}, 0.0068},
+    {{0.112, 0.020, -0.024}, {0.174, 0.004, -0.029}, 0.0125},
+    {{0.106, 0.027, -0.008}, {0.181, 0.004, -0.007}, 0.0084},
+    {{0.102, 0.025, 0.005}, {0.174, 0.003, 0.011}, 0.0080},
+    {{0.094, 0.020, 0.016}, {0.163, 0.002, 0.026}, 0.0078},
+    {{0.082, 0.013, 0.028}, {0.149, 0.001, 0.040}, 0.0080},
 }};
 
 // A long bone of hand or foot: thick at both ends.
@@ -35,33 +35,32 @@ Mesh makeRay(const Vector3d& base, const Vector3d& head, double radius, double a
                    {base + 0.55 * (head - base) + up, 0.58 * radius},
                    {base + 0.85 * (head - base) + 0.3 * up, 0.80 * radius},
                    {head, 0.92 * radius}},
-                  10,
-                  2);
+                  {7, 1, 1, {}});
 }
 
 Mesh makeHindfoot() {
   Solid foot;
   // Calcaneus: heel, body, the shelf under the talus, and its front end.
-  foot.addEllipsoid({0.010, 0.014, -0.004}, {0.0170, 0.0215, 0.0150}, 0.0);
-  foot.addStroke({{{0.014, 0.018, -0.004}, 0.0155},
-                  {{0.036, 0.024, -0.002}, 0.0140},
-                  {{0.062, 0.020, 0.010}, 0.0125}},
-                 0.012);
-  foot.addEllipsoid({0.046, 0.029, -0.015}, {0.0120, 0.0060, 0.0080}, 0.008);
-  return foot.makeMesh(Vector3d::Constant(0.0050));
+  foot.addEllipsoid({0.011, 0.014, -0.004}, {0.0190, 0.0225, 0.0160}, 0.0);
+  foot.addStroke({{{0.014, 0.020, -0.004}, 0.0165},
+                  {{0.036, 0.024, -0.001}, 0.0165},
+                  {{0.062, 0.019, 0.011}, 0.0150}},
+                 0.014);
+  foot.addEllipsoid({0.046, 0.030, -0.016}, {0.0130, 0.0070, 0.0090}, 0.008);
+  return foot.makeMesh(Vector3d::Constant(0.0055));
 }
 
 Mesh makeMidfoot() {
   Mesh mesh;
   const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   const auto add = [&](const Vector3d& center, const Vector3d& radii) {
-    appendMesh(mesh, makeEllipsoid(center, radii, axes, 12, 7));
+    appendMesh(mesh, makeEllipsoid(center, radii, axes, 10, 6));
   };
-  add({0.079, 0.030, -0.017}, {0.0085, 0.0125, 0.0160});  // navicular
-  add({0.080, 0.017, 0.017}, {0.0145, 0.0115, 0.0115});   // cuboid
-  add({0.098, 0.024, -0.023}, {0.0125, 0.0130, 0.0085});  // cuneiforms
-  add({0.096, 0.029, -0.008}, {0.0105, 0.0105, 0.0075});
-  add({0.095, 0.026, 0.004}, {0.0110, 0.0105, 0.0075});
+  add({0.081, 0.030, -0.016}, {0.0115, 0.0140, 0.0180});  // navicular
+  add({0.079, 0.017, 0.017}, {0.0180, 0.0130, 0.0135});   // cuboid
+  add({0.099, 0.024, -0.023}, {0.0155, 0.0145, 0.0100});  // cuneiforms
+  add({0.097, 0.029, -0.008}, {0.0135, 0.0120, 0.0092});
+  add({0.096, 0.026, 0.005}, {0.0140, 0.0120, 0.0092});
   return mesh;
 }
 
@@ -74,7 +73,7 @@ Mesh makeTalusBones() {
   talus.addStroke({{{0.006, -0.003, -0.004}, 0.0125}, {{0.024, -0.008, -0.012}, 0.0115}}, 0.008);
   talus.addEllipsoid({-0.014, -0.009, -0.002}, {0.0080, 0.0070, 0.0100}, 0.008);
   talus.cut({0, -0.018, 0}, {0, -1, 0}, 0.004);
-  return talus.makeMesh(Vector3d::Constant(0.0050));
+  return talus.makeMesh(Vector3d::Constant(0.0055));
 }
 
 Mesh makeCalcaneusBones() {
@@ -84,8 +83,9 @@ Mesh makeCalcaneusBones() {
     appendMesh(mesh, makeRay(bone.base, bone.head, bone.radius, 0.004));
   }
   // Styloid process of the fifth metatarsal, where the peroneus brevis ends.
-  appendMesh(mesh,
-             makeTube({{{0.086, 0.013, 0.028}, 0.0070}, {{0.070, 0.013, 0.034}, 0.0040}}, 8, 2));
+  appendMesh(
+      mesh,
+      makeTube({{{0.086, 0.013, 0.028}, 0.0070}, {{0.070, 0.013, 0.034}, 0.0040}}, {8, 2, 1, {}}));
   return mesh;
 }
 
@@ -99,11 +99,11 @@ Mesh makeToesBones() {
     Vector3d direction;
   };
   const std::array<Toe, 5> toes = {{
-      {0.062, 2, 0.0090, {0.995, -0.03, 0.09}},
-      {0.052, 3, 0.0058, {0.995, -0.05, 0.05}},
-      {0.046, 3, 0.0055, {0.985, -0.05, 0.14}},
-      {0.040, 3, 0.0053, {0.970, -0.05, 0.22}},
-      {0.034, 3, 0.0053, {0.950, -0.05, 0.30}},
+      {0.062, 2, 0.0112, {0.995, -0.03, 0.09}},
+      {0.054, 3, 0.0066, {0.995, -0.05, 0.05}},
+      {0.048, 3, 0.0062, {0.985, -0.05, 0.14}},
+      {0.042, 3, 0.0060, {0.970, -0.05, 0.22}},
+      {0.037, 3, 0.0058, {0.950, -0.05, 0.30}},
   }};
   Mesh mesh;
   for (std::size_t i = 0; i < toes.size(); ++i) {

@@ -61,37 +61,54 @@ SpinePlace findVertebra(int index) {
   return findOnSpine(0.5 * (findBoundary(index) + findBoundary(index + 1)));
 }
 
-// In its own frame: x forward, y up; `width` is the body's radius, `height` that of body and disc.
-Mesh makeVertebra(int index, double width, double height) {
-  const bool cervical = index >= kFirstCervical;
-  const bool thoracic = index >= kFirstThoracic && !cervical;
-  const Eigen::Matrix3d upright =
-      (Eigen::Matrix3d() << 0, 1, 0, 0, 0, 1, 1, 0, 0).finished();  // ellipsoid's poles up
-  (void)upright;
-  const double half = 0.43 * height;
-  Mesh mesh = makeTube(
-      {{{0, -half, 0}, 0.98 * width}, {{0, 0, 0}, 0.86 * width}, {{0, half, 0}, 0.98 * width}},
-      12,
-      2,
-      {Vector3d::UnitX(), 0.78});
-  const double back = -0.72 * width;
-  const double spinous = (cervical ? 1.25 : thoracic ? 1.75 : 1.45) * width;
-  const double drop = (cervical ? 0.20 : thoracic ? 0.85 : 0.25) * height;
-  const double transverse = (cervical ? 1.55 : thoracic ? 1.55 : 1.55) * width;
+/// Sizes of a vertebra relative to its body's radius, by region.
+struct VertebraForm {
+  double spinous;     ///< length behind the arch
+  double drop;        ///< of its tip, relative to the vertebra's height
+  double transverse;  ///< reach to the side
+  double backward;    ///< of the transverse process's tip
+  double thickness;   ///< of the processes
+};
+
+const VertebraForm& getForm(int index) {
+  static const VertebraForm lumbar = {1.10, 0.30, 1.60, 0.10, 0.26};
+  static const VertebraForm thoracic = {1.45, 0.95, 1.50, 0.55, 0.25};
+  static const VertebraForm cervical = {1.60, 0.40, 1.70, 0.10, 0.27};
+  return index >= kFirstCervical ? cervical : index >= kFirstThoracic ? thoracic : lumbar;
+}
+
+// In its own frame: x forward, y up. `radius` is the body's, `height` that of body and disc.
+Mesh makeVertebra(const VertebraForm& form, double radius, double height) {
+  const TubeForm drum = {10, 1, 0.10, {Vector3d::UnitX(), 0.78}};
+  Mesh mesh = makeTube({{{0, -0.36 * height, 0}, radius},
+                        {{0, 0, 0}, 0.84 * radius},
+                        {{0, 0.36 * height, 0}, radius}},
+                       drum);
+  const double arch = -1.15 * radius;  // behind the canal
+  const TubeForm thin = {6, 1, 1, {Vector3d::UnitZ(), 0.6}};
   appendMesh(mesh,
-             makeTube({{{back - 0.45 * width, 0.05 * height, 0}, 0.26 * width},
-                       {{back - 0.5 * spinous, -0.4 * drop, 0}, 0.20 * width},
-                       {{back - spinous, -drop, 0}, 0.22 * width}},
-                      8,
-                      1,
-                      {Vector3d::UnitZ(), 0.55}));
+             makeTube({{{arch + 0.2 * radius, 0.10 * height, 0}, 1.3 * form.thickness * radius},
+                       {{arch - 0.5 * form.spinous * radius, -0.35 * form.drop * height, 0},
+                        1.2 * form.thickness * radius},
+                       {{arch - form.spinous * radius, -form.drop * height, 0},
+                        1.2 * form.thickness * radius}},
+                      thin));
+  const TubeForm round = {5, 1, 1, {}};
   for (const double side : {-1.0, 1.0}) {
+    const double arm = form.thickness * radius;
+    // Pedicle, then the transverse process.
     appendMesh(mesh,
-               makeTube({{{back + 0.3 * width, 0.12 * height, 0.45 * side * width}, 0.18 * width},
-                         {{back - 0.5 * width, 0.08 * height, 0.55 * side * width}, 0.22 * width},
-                         {{back - 0.40 * width, 0.10 * height, side * transverse}, 0.15 * width}},
-                        7,
-                        1));
+               makeTube({{{-0.55 * radius, 0.12 * height, 0.55 * side * radius}, arm},
+                         {{arch, 0.10 * height, 0.50 * side * radius}, 1.3 * arm}},
+                        round));
+    appendMesh(mesh,
+               makeTube({{{arch - 0.1 * radius, 0.10 * height, 0}, 1.2 * arm},
+                         {{arch + 0.1 * radius, 0.12 * height, 0.7 * side * radius}, 1.2 * arm},
+                         {{arch + (0.3 - form.backward) * radius,
+                           0.14 * height,
+                           side * form.transverse * radius},
+                          0.8 * arm}},
+                        round));
   }
   return mesh;
 }
@@ -104,7 +121,7 @@ Mesh makeSpine() {
     const SpinePlace place = findVertebra(i);
     const double height =
         (findOnSpine(findBoundary(i + 1)).position - findOnSpine(findBoundary(i)).position).norm();
-    Mesh vertebra = makeVertebra(i, place.radius, height);
+    Mesh vertebra = makeVertebra(getForm(i), place.radius, height);
     const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitY(), place.up);
     moveMesh(vertebra, turn.toRotationMatrix(), place.position);
     appendMesh(mesh, vertebra);
@@ -149,20 +166,21 @@ Mesh makeRib(int number) {
   const Vector3d side(rib.side_x, root.y() - rib.side_drop, rib.side_z);
   const Vector3d back = 0.5 * (angle + side) + Vector3d(-0.024, 0.006, 0.020);
   const Vector3d fore = 0.5 * (side + rib.front) + Vector3d(0.022, -0.006, 0.020);
-  Mesh mesh = makeTube({{root, 0.0050},
-                        {angle, 0.0060},
-                        {back, 0.0065},
-                        {side, 0.0065},
-                        {fore, 0.0062},
-                        {rib.front, 0.0058}},
-                       7,
-                       4);
+  TubeForm bone = {6, 3, 1, {Vector3d::UnitX(), 0.5}};
+  bone.thin_from_axis = true;
+  Mesh mesh = makeTube({{root, 0.0052},
+                        {angle, 0.0068},
+                        {back, 0.0075},
+                        {side, 0.0072},
+                        {fore, 0.0070},
+                        {rib.front, 0.0066}},
+                       bone);
   if (rib.to_sternum) {
     const double t = std::min(1.0, 0.06 + 0.145 * number);
     const Vector3d end = findSternum(t) + Vector3d(0, 0, 0.012);
     const Vector3d knee =
         0.5 * (rib.front + end) + Vector3d(0.010, number < 4 ? 0.0 : -0.006 * (number - 3), 0.004);
-    appendMesh(mesh, makeTube({{rib.front, 0.0055}, {knee, 0.0050}, {end, 0.0048}}, 7, 3));
+    appendMesh(mesh, makeTube({{rib.front, 0.0060}, {knee, 0.0056}, {end, 0.0054}}, {6, 2, 1, {}}));
   }
   return mesh;
 }
@@ -176,7 +194,7 @@ Mesh makeSternum() {
       0.006,
       flat);
   sternum.addStroke({{{0.090, 0.230, 0}, 0.0090}, {{0.094, 0.206, 0}, 0.0050}}, 0.006, flat);
-  return sternum.makeMesh(Vector3d::Constant(0.0065));
+  return sternum.makeMesh(Vector3d::Constant(0.0075));
 }
 
 }  // namespace
@@ -198,18 +216,18 @@ namespace {
 Mesh makeScapula() {
   Solid scapula;
   // Blade behind the ribs: rows from the upper edge to the lower angle, from the spine outward.
-  scapula.addSheet({{{{-0.072, 0.386, 0.072}, 0.0035},
-                     {{-0.056, 0.390, 0.100}, 0.0028},
+  scapula.addSheet({{{{-0.072, 0.386, 0.072}, 0.0042},
+                     {{-0.056, 0.390, 0.100}, 0.0048},
                      {{-0.030, 0.386, 0.130}, 0.0040}},
-                    {{{-0.088, 0.352, 0.066}, 0.0035},
-                     {{-0.074, 0.354, 0.096}, 0.0026},
+                    {{{-0.088, 0.352, 0.066}, 0.0042},
+                     {{-0.074, 0.354, 0.096}, 0.0048},
                      {{-0.026, 0.368, 0.140}, 0.0060}},
-                    {{{-0.094, 0.310, 0.074}, 0.0035},
-                     {{-0.084, 0.312, 0.094}, 0.0026},
+                    {{{-0.094, 0.310, 0.074}, 0.0042},
+                     {{-0.084, 0.312, 0.094}, 0.0048},
                      {{-0.056, 0.324, 0.122}, 0.0040}},
-                    {{{-0.092, 0.266, 0.088}, 0.0038},
-                     {{-0.088, 0.264, 0.095}, 0.0030},
-                     {{-0.080, 0.270, 0.102}, 0.0038}}},
+                    {{{-0.092, 0.266, 0.088}, 0.0048},
+                     {{-0.088, 0.264, 0.095}, 0.0048},
+                     {{-0.080, 0.270, 0.102}, 0.0048}}},
                    0.0);
   // Spine with acromion, coracoid process, socket.
   scapula.addStroke({{{-0.092, 0.358, 0.070}, 0.0045},
@@ -224,7 +242,7 @@ Mesh makeScapula() {
                     0.008);
   scapula.addEllipsoid({-0.014, 0.368, 0.142}, {0.0125, 0.0190, 0.0090}, 0.010);
   scapula.carveEllipsoid({0.003, 0.3715, 0.170}, {0.0255, 0.0255, 0.0255}, 0.003);
-  return scapula.makeMesh(Vector3d::Constant(0.0060));
+  return scapula.makeMesh({0.0048, 0.0095, 0.0056});
 }
 
 Mesh makeClavicle() {
@@ -233,8 +251,7 @@ Mesh makeClavicle() {
                    {{0.040, 0.400, 0.082}, 0.0058},
                    {{0.010, 0.408, 0.124}, 0.0062},
                    {{0.000, 0.408, 0.156}, 0.0075}},
-                  10,
-                  4);
+                  {9, 3, 1, {}});
 }
 
 }  // namespace

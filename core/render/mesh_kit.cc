@@ -1,7 +1,6 @@
 #include "core/render/mesh_kit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -52,11 +51,14 @@ Ring makeRing(const StrokePoint& point,
   return {point.position, u * point.radius * section.flatness, tangent.cross(u) * point.radius};
 }
 
-// Half an ellipsoid in two rings and a pole.
-void appendCap(std::vector<Ring>& rings, const Ring& end, const Vector3d& outward, double height) {
-  constexpr std::array<double, 2> kAngles = {kPi / 6, kPi / 3};
+// Half an ellipsoid in rings and a pole: two rings, or one where tubes have few sides anyway.
+void appendCap(
+    std::vector<Ring>& rings, const Ring& end, const Vector3d& outward, double height, int sides) {
+  constexpr int kFine = 9;
+  const std::vector<double> angles =
+      sides < kFine ? std::vector<double>{kPi / 4} : std::vector<double>{kPi / 6, kPi / 3};
   std::vector<Ring> cap;
-  for (const double angle : kAngles) {
+  for (const double angle : angles) {
     cap.push_back({end.center + outward * height * std::sin(angle),
                    end.u * std::cos(angle),
                    end.v * std::cos(angle)});
@@ -118,23 +120,25 @@ std::vector<StrokePoint> refineStroke(const std::vector<StrokePoint>& points, in
   return curve;
 }
 
-Mesh makeTube(const std::vector<StrokePoint>& points,
-              int sides,
-              int per_span,
-              const CrossSection& section) {
-  const std::vector<StrokePoint> curve = refineStroke(points, per_span);
+Mesh makeTube(const std::vector<StrokePoint>& points, const TubeForm& form) {
+  const std::vector<StrokePoint> curve = refineStroke(points, form.per_span);
   std::vector<Ring> body;
   Vector3d u = findPerpendicular(calcTangent(curve, 0));
   for (std::size_t i = 0; i < curve.size(); ++i) {
+    CrossSection section = form.section;
+    if (form.thin_from_axis) {
+      const Vector3d& p = curve[i].position;
+      section.thin_direction = Vector3d(p.x(), 0, p.z()).normalized();
+    }
     body.push_back(makeRing(curve[i], calcTangent(curve, i), section, u));
   }
-  const double thickness = std::sqrt(section.flatness);
+  const double height = form.cap * std::sqrt(form.section.flatness);
+  const Vector3d ahead = calcTangent(curve, curve.size() - 1);
   std::vector<Ring> rings;
-  appendCap(rings, body.front(), -calcTangent(curve, 0), thickness * curve.front().radius);
+  appendCap(rings, body.front(), -calcTangent(curve, 0), height * curve.front().radius, form.sides);
   rings.insert(rings.end(), body.begin(), body.end());
-  appendCap(
-      rings, body.back(), calcTangent(curve, curve.size() - 1), thickness * curve.back().radius);
-  return joinRings(rings, sides);
+  appendCap(rings, body.back(), ahead, height * curve.back().radius, form.sides);
+  return joinRings(rings, form.sides);
 }
 
 Mesh makeEllipsoid(const Vector3d& center,

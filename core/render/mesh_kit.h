@@ -27,13 +27,17 @@ struct CrossSection {
   double flatness = 1;
 };
 
+/// Further choices of makeTube.
+struct TubeForm {
+  int sides = 8;     ///< corners of a cross-section, >= 3
+  int per_span = 3;  ///< rings between two points, >= 1
+  double cap = 1;    ///< height of the rounded ends over their radius
+  CrossSection section;
+  bool thin_from_axis = false;  ///< the thin direction points away from the y axis, at each ring
+};
+
 /// Tube along the refined curve with rounded ends.
-/// @param sides     corners of a cross-section, >= 3
-/// @param per_span  rings between two points, >= 1
-Mesh makeTube(const std::vector<StrokePoint>& points,
-              int sides,
-              int per_span,
-              const CrossSection& section = {});
+Mesh makeTube(const std::vector<StrokePoint>& points, const TubeForm& form = {});
 
 /// @param rings  between the poles; the poles lie on the axis of the third radius
 Mesh makeEllipsoid(const Eigen::Vector3d& center,

@@ -15,7 +15,7 @@ using Vector3d = Eigen::Vector3d;
 using Vector2d = Eigen::Vector2d;
 
 constexpr int kStrokePieces = 4;  // straight pieces between two points of a stroke
-constexpr int kSheetPieces = 3;   // plane pieces between two points of a net, either way
+constexpr int kSheetPieces = 2;   // plane pieces between two points of a net, either way
 
 double smoothMinimum(double a, double b, double width) {
   const double h = width > 0 ? std::max(width - std::abs(a - b), 0.0) / width : 0.0;

@@ -88,8 +88,7 @@ Mesh makePlainShaft(const Vector3d& end) {
                    {0.2 * end, 0.8 * radius},
                    {0.8 * end, 0.8 * radius},
                    {end, 1.4 * radius}},
-                  12,
-                  4);
+                  {12, 4, 1, {}});
 }
 
 std::vector<BodyMesh> makeStylizedBones(const ModelSpec& model) {
