@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/io/emg_reader.h"
 #include "core/io/files.h"
 #include "core/io/grf_reader.h"
 #include "core/io/osim_reader.h"
@@ -85,6 +86,24 @@ void inspectModel(const OpenedFile& file,
   }
 }
 
+void inspectEmg(const OpenedFile& file,
+                UnderstoodFile& understood,
+                std::vector<std::string>& warnings) {
+  const EmgFile recording = readEmg(file.bytes, file.name);
+  const EmgUnderstanding emg = understandEmg(recording.signals);
+  understood.format = recording.format;
+  putTimes(recording.signals.time, understood);
+  understood.labels_kind = "columns";
+  understood.labels = recording.signals.labels;
+  understood.emg = api::EmgView{
+      emg.source == EmgSource::kRaw ? "raw" : "envelope", {}, recording.force_channels};
+  for (const EmgChannel& channel : emg.channels) {
+    understood.emg->channels.push_back({channel.channel, sideName(channel.side), channel.muscles});
+  }
+  warnings = recording.warnings;
+  warnings.insert(warnings.end(), emg.warnings.begin(), emg.warnings.end());
+}
+
 api::ContactView makeContact(const FootContact& contact) {
   return {contact.plate,
           footName(contact.foot),
@@ -153,7 +172,9 @@ void Inspection::inspect(const OpenedFile& file, UnderstoodFile& understood, War
     inspectModel(file, understood, warnings);
   } else if (understood.part == "grf") {
     inspectForces(file, understood, warnings);
-  } else if (understood.part == "emg" || understood.part == "coordinates") {
+  } else if (understood.part == "emg") {
+    inspectEmg(file, understood, warnings);
+  } else if (understood.part == "coordinates") {
     warnings = inspectTable(file, understood).warnings;
   } else {
     inspectMarkers(file, understood, warnings);

@@ -63,6 +63,22 @@ ContactView toContact(const json& object) {
   return contact;
 }
 
+json toJson(const EmgChannelView& channel) {
+  return {{"channel", channel.channel}, {"side", channel.side}, {"muscles", channel.muscles}};
+}
+
+EmgView toEmg(const json& object) {
+  EmgView emg;
+  emg.source = object.at("source");
+  for (const json& channel : object.at("channels")) {
+    emg.channels.push_back({channel.at("channel"),
+                            channel.at("side"),
+                            channel.at("muscles").get<std::vector<std::string>>()});
+  }
+  emg.force_channels = object.at("force_channels").get<std::vector<std::string>>();
+  return emg;
+}
+
 json toJson(const GaitEventView& event) {
   return {{"event", event.kind}, {"foot", event.foot}, {"time_s", event.time}};
 }
@@ -104,6 +120,11 @@ json toJson(const UnderstoodFile& file) {
   if (file.labels_kind == "forces") {
     object["contacts"] = toList(file.contacts);
   }
+  if (file.emg) {
+    object["emg"] = {{"source", file.emg->source},
+                     {"channels", toList(file.emg->channels)},
+                     {"force_channels", file.emg->force_channels}};
+  }
   return object;
 }
 
@@ -124,6 +145,9 @@ void readLists(const json& object, UnderstoodFile& file) {
   }
   for (const json& contact : object.value("contacts", json::array())) {
     file.contacts.push_back(toContact(contact));
+  }
+  if (object.contains("emg")) {
+    file.emg = toEmg(object.at("emg"));
   }
 }
 

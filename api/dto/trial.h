@@ -53,13 +53,26 @@ struct ContactView {
   bool has_toe_off = false;
 };
 
+/// One channel of an EMG recording and what it is taken for.
+struct EmgChannelView {
+  std::string channel;
+  std::string side;                  ///< "right", "left"
+  std::vector<std::string> muscles;  ///< empty if its name says nothing
+};
+
+struct EmgView {
+  std::string source;  ///< "raw" or "envelope"
+  std::vector<EmgChannelView> channels;
+  std::vector<std::string> force_channels;  ///< of force plates in the same file, left out
+};
+
 /// What the service read in one file. Numbers that do not apply to its kind are absent.
 struct UnderstoodFile {
   std::string part;
   std::string name;
   std::int64_t size = 0;  ///< [bytes]
   std::string sha256;     ///< hex
-  std::string format;     ///< "trc", "table", "osim"
+  std::string format;     ///< "trc", "table", "anc", "osim"
   std::optional<int> frames;
   std::optional<double> rate;   ///< [Hz]
   std::optional<double> start;  ///< [s]
@@ -69,6 +82,7 @@ struct UnderstoodFile {
   std::vector<std::string> labels;
   std::vector<MarkerSetMatch> marker_sets;  ///< of marker files, best match first
   std::vector<ContactView> contacts;        ///< of ground reactions
+  std::optional<EmgView> emg;               ///< of EMG
 };
 
 struct GaitEventView {

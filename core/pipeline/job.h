@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "core/analysis/acceptance.h"
+#include "core/analysis/emg_channels.h"
+#include "core/analysis/emg_envelope.h"
 #include "core/analysis/foot_contacts.h"
 #include "core/analysis/joint_reserves.h"
 #include "core/analysis/marker_statistics.h"
@@ -41,6 +43,12 @@ struct JobAnalysis {
   WorkBalance balance;
 };
 
+/// The EMG of a trial, ready to be shown and compared.
+struct JobEmg {
+  EmgEnvelopes processed;  ///< its times later by the electromechanical delay
+  std::vector<EmgChannel> channels;
+};
+
 /// One run of the recipe: settings, input, and what each stage left behind. Private to
 /// core/pipeline. Stages fill their own member and never touch an earlier one; a member is empty
 /// until its stage ran.
@@ -61,6 +69,7 @@ struct Job {
   GroundReaction reaction;
   TimeSeries measured_coordinates;  ///< from IK or from a file [rad|m]
   TimeSeries motion;                ///< after residual reduction: what SO and CMC follow
+  std::optional<JobEmg> emg;        ///< if the trial has any that can be used
 
   std::optional<ScaleResult> scale;
   std::optional<IkResult> ik;

@@ -9,6 +9,7 @@
 #include "core/io/table_writer.h"
 #include "core/math/events.h"
 #include "core/pipeline/job.h"
+#include "core/pipeline/job_emg.h"
 
 namespace gaitmill {
 
@@ -207,13 +208,16 @@ StageOutcome makeOutcome(Stage stage, const Job& job) {
   outcome.stage = stage;
   addStage(stage, job, outcome);
   addAnalysis(stage, job, outcome);
+  addEmg(stage, job, outcome);
   const std::optional<GaitCycle> cycle = findGaitCycle(job);
   for (auto entry = outcome.tables.begin(); entry != outcome.tables.end();) {
     auto& [name, table] = *entry;
     table.name = name;
     check(table.units.size() == table.labels.size(), "a result has columns without unit");
-    // Work is one row per cycle already.
-    if (cycle && table.rowCount() > 1 && table.columnCount() > 0 && name != "muscle_work") {
+    // Work is one row per cycle already; some stages bring their own cycle.
+    const bool has_rows = table.rowCount() > 1 && table.columnCount() > 0;
+    const bool is_done = name == "muscle_work" || outcome.cycle_tables.count(name) > 0;
+    if (cycle && has_rows && !is_done) {
       outcome.cycle_tables[name] = normalizeToCycle(table, *cycle);
     }
     entry = table.labels.empty() ? outcome.tables.erase(entry) : std::next(entry);

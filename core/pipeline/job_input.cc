@@ -12,6 +12,7 @@
 #include "core/math/filters.h"
 #include "core/pipeline/checkpoint.h"
 #include "core/pipeline/job.h"
+#include "core/pipeline/job_emg.h"
 #include "core/pipeline/marker_set_json.h"
 
 namespace gaitmill {
@@ -206,6 +207,7 @@ Job openJob(const TrialInput& input,
   if (needsForces(job.settings)) {
     openForces(job);
   }
+  openEmg(job);
   job.quiet = false;
   return job;
 }

@@ -17,6 +17,7 @@
 #include "core/model/model.h"
 #include "core/model/reference_motion.h"
 #include "core/pipeline/job.h"
+#include "core/pipeline/job_emg.h"
 #include "core/rra/rra_solver.h"
 #include "core/scale/scale_solver.h"
 #include "core/so/so_solver.h"
@@ -282,6 +283,7 @@ void runStage(Stage stage, Job& job) {
     reportProgress(makeProgress(stage, job), 0.0);
     runStageBody(stage, job);
     takeOver(stage, job);
+    warnOfEmg(stage, job);
     reportProgress(makeProgress(stage, job), 1.0);
   } catch (Error& error) {
     Where where;

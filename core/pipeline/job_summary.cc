@@ -6,6 +6,7 @@
 
 #include "core/analysis/tracking_error.h"
 #include "core/pipeline/job.h"
+#include "core/pipeline/job_emg.h"
 #include "core/pipeline/quality_json.h"
 
 namespace gaitmill {
@@ -139,6 +140,9 @@ std::string makeSummary(const Job& job, const JobQuality& quality) {
                        {"left", summarizeCycles(findGaitCycles(job, Foot::kLeft))}};
   if (job.analysis) {
     summary["work"] = summarizeWork(job.analysis->balance);
+  }
+  if (job.emg) {
+    summary["emg"] = summarizeEmg(job);
   }
   summary["settings_used"] = Json::parse(writeSettings(job.settings));
   summary["warnings"] = job.warnings;

@@ -22,7 +22,7 @@ struct TrialInput {
   std::optional<InputFile> static_markers_2;  ///< TRC, second pose for marker placement
   std::optional<InputFile> markers;           ///< TRC, the movement
   std::optional<InputFile> ground_reaction;   ///< MOT/STO
-  std::optional<InputFile> emg;               ///< STO/CSV envelopes, for comparison only
+  std::optional<InputFile> emg;               ///< ANC, STO, CSV or text, raw or envelopes
   std::optional<InputFile> model;        ///< .osim: generic model, or scaled if scale is skipped
   std::optional<InputFile> coordinates;  ///< MOT/STO, to start after IK
   std::optional<InputFile> marker_set;   ///< JSON, replaces the one that the settings name
@@ -68,8 +68,9 @@ struct PipelineResult {
   /// Tables by result name, as far as the stages that ran make them: "moments", "activations",
   /// "excitations", "forces", "fiber_lengths", "fiber_velocities", "kinematics", "residuals",
   /// "reserves", "marker_errors", "measured_markers", "ground_reactions", "joint_powers",
-  /// "joint_reactions", "muscle_work", and those of MuscleAnalysis. Every column has its unit ("" = dimensionless); angles in radians
-  /// (converted at the edge).
+  /// "joint_reactions", "muscle_work", "emg", and those of MuscleAnalysis. Every column has its
+  /// unit
+  /// ("" = dimensionless); angles in radians (converted at the edge).
   std::map<std::string, TimeSeries> tables;
   /// The same tables on 0..100 % of the gait cycle (column "percent" is `time`), where a cycle
   /// exists.
@@ -116,8 +117,9 @@ class Pipeline {
   std::string models_folder_;
 };
 
-/// The code that computes, "0.1.0 81c4…": the version, and 16 hex digits of the hash over the core's
-/// sources. Part of the provenance of every result; checkpoints of other code are not gone on from.
+/// The code that computes, "0.1.0 81c4…": the version, and 16 hex digits of the hash over the
+/// core's sources. Part of the provenance of every result; checkpoints of other code are not gone
+/// on from.
 const std::string& codeVersion();
 
 }  // namespace gaitmill

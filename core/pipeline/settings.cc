@@ -16,6 +16,8 @@ constexpr Limits kControlLimit{0, 1e12};
 constexpr Limits kCutoff{0.1, 1000};  // [Hz]
 constexpr Limits kUnit{0, 1};
 constexpr Limits kPasses{0, 20};
+constexpr Limits kEmgFrequency{0.1, 100000};  // [Hz]
+constexpr Limits kFilterOrder{1, 12};
 
 template <class Fields>
 void visitStages(Fields& fields, PipelineSettings& settings) {
@@ -179,6 +181,34 @@ void visitCmc(Fields& fields, PipelineSettings& settings) {
 }
 
 template <class Fields>
+void visitEmg(Fields& fields, EmgSettings& emg) {
+  EmgOptions& processing = emg.processing;
+  fields.choice(
+      "source",
+      Choices<EmgSource>{
+          {"auto", EmgSource::kAuto}, {"raw", EmgSource::kRaw}, {"envelope", EmgSource::kEnvelope}},
+      emg.source);
+  fields.band("band_pass_hz", kEmgFrequency, processing.band_pass);
+  fields.count("band_pass_order", kFilterOrder, processing.band_pass_order);
+  fields.number("butterworth_hz", kEmgFrequency, processing.butterworth);
+  fields.count("butterworth_order", kFilterOrder, processing.butterworth_order);
+  fields.number("critically_damped_hz", kEmgFrequency, processing.critically_damped);
+  fields.count("critically_damped_passes", {2, kPasses.high}, processing.critically_damped_passes);
+  if (processing.critically_damped_passes % 2 != 0) {
+    fields.refuse("critically_damped_passes", "expected an even number of passes");
+  }
+  fields.choice("ends",
+                Choices<EdgeTreatment>{{"reflected", EdgeTreatment::kReflected},
+                                       {"zero_start", EdgeTreatment::kZeroStart}},
+                processing.ends);
+  fields.number("electromechanical_delay_s", {0, 0.5}, emg.electromechanical_delay);
+  fields.choice("side",
+                Choices<BodySide>{{"right", BodySide::kRight}, {"left", BodySide::kLeft}},
+                emg.mapping.side);
+  fields.lists("channels", emg.mapping.channels);
+}
+
+template <class Fields>
 void visitSettings(Fields& fields, PipelineSettings& settings) {
   fields.text("name", settings.name);
   fields.text("description", settings.description);
@@ -191,6 +221,7 @@ void visitSettings(Fields& fields, PipelineSettings& settings) {
   fields.object("id", [&](auto& inner) { visitId(inner, settings); });
   fields.object("so", [&](auto& inner) { visitSo(inner, settings); });
   fields.object("cmc", [&](auto& inner) { visitCmc(inner, settings); });
+  fields.object("emg", [&](auto& inner) { visitEmg(inner, settings.emg); });
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "core/analysis/acceptance.h"
+#include "core/analysis/emg_channels.h"
+#include "core/analysis/emg_envelope.h"
 #include "core/cmc/cmc_options.h"
 #include "core/data/marker_set.h"
 #include "core/data/model_spec.h"
@@ -73,6 +75,15 @@ struct RraSettings {
   double center_tolerance = 0.001;  ///< [m]
 };
 
+/// How EMG is read and held against the simulated activations.
+struct EmgSettings {
+  EmgSource source = EmgSource::kAuto;
+  EmgOptions processing;
+  /// From the EMG to the activation that it stands for: added to the times of the recording [s].
+  double electromechanical_delay = 0;
+  EmgChannelOptions mapping;
+};
+
 /// A settings document (models/settings/*.json) as values. Every field has a default, and the
 /// defaults together run any trial with the model's own marker names.
 struct PipelineSettings {
@@ -112,6 +123,8 @@ struct PipelineSettings {
   CmcOptions cmc;
   TimeRange cmc_range;
   ActuatorSetSettings cmc_actuators = makeReserveActuators();
+
+  EmgSettings emg;
 
   bool runs(Stage stage) const;
 };

@@ -138,6 +138,37 @@ void SettingsReader::stages(const std::string& name, std::vector<Stage>& value) 
   }
 }
 
+void SettingsReader::band(const std::string& name,
+                          Limits limits,
+                          std::optional<FrequencyBand>& value) {
+  if (isNull(name)) {
+    value.reset();
+  }
+  if (!fields_.has(name)) {
+    return;
+  }
+  const std::vector<double> edges = fields_.numbers(name);
+  if (edges.size() != 2 || !(edges[0] < edges[1]) || edges[0] < limits.low ||
+      edges[1] > limits.high) {
+    fields_.refuse(name,
+                   "expected two increasing frequencies [low, high] from " +
+                       std::to_string(limits.low) + " to " + std::to_string(limits.high));
+  }
+  value = FrequencyBand{edges[0], edges[1]};
+}
+
+void SettingsReader::lists(const std::string& name,
+                           std::map<std::string, std::vector<std::string>>& value) {
+  if (!fields_.has(name)) {
+    return;
+  }
+  value.clear();
+  JsonFields entries = fields_.object(name);
+  for (const std::string& entry : entries.names()) {
+    value[entry] = entries.texts(entry);
+  }
+}
+
 void SettingsWriter::point(const std::string& name, const std::optional<Eigen::Vector3d>& value) {
   json_[name] = value ? Json{value->x(), value->y(), value->z()} : Json(nullptr);
 }
@@ -156,6 +187,20 @@ void SettingsWriter::values(const std::string& name, const CoordinateValues& val
   json_[name] = Json::object();
   for (const auto& [coordinate, number] : value) {
     json_[name][coordinate] = number;
+  }
+}
+
+void SettingsWriter::band(const std::string& name,
+                          Limits,
+                          const std::optional<FrequencyBand>& value) {
+  json_[name] = value ? Json{value->low, value->high} : Json(nullptr);
+}
+
+void SettingsWriter::lists(const std::string& name,
+                           const std::map<std::string, std::vector<std::string>>& value) {
+  json_[name] = Json::object();
+  for (const auto& [entry, words] : value) {
+    json_[name][entry] = words;
   }
 }
 

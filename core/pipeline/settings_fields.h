@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -51,6 +52,10 @@ class SettingsReader {
   void values(const std::string& name, CoordinateValues& value);
   void stage(const std::string& name, Stage& value);
   void stages(const std::string& name, std::vector<Stage>& value);
+  /// Two increasing frequencies [low, high].
+  void band(const std::string& name, Limits limits, std::optional<FrequencyBand>& value);
+  /// Lists of words by name.
+  void lists(const std::string& name, std::map<std::string, std::vector<std::string>>& value);
 
   template <class Enum>
   void choice(const std::string& name, const Choices<Enum>& choices, Enum& value) {
@@ -134,6 +139,8 @@ class SettingsWriter {
   void values(const std::string& name, const CoordinateValues& value);
   void stage(const std::string& name, Stage value) { json_[name] = stageName(value); }
   void stages(const std::string& name, const std::vector<Stage>& value);
+  void band(const std::string& name, Limits, const std::optional<FrequencyBand>& value);
+  void lists(const std::string& name, const std::map<std::string, std::vector<std::string>>& value);
 
   template <class Enum>
   void choice(const std::string& name, const Choices<Enum>& choices, const Enum& value) {

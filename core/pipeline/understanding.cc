@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <set>
+#include <utility>
 
 #include "core/base/text.h"
 #include "core/io/files.h"
@@ -97,6 +98,11 @@ ForceUnderstanding understandForces(const TableFile& table, const MarkerTrajecto
   warnOfUnknownFeet(understanding.contacts, understanding.warnings);
   warnOfDisjointTimes(reaction.time, markers, understanding.warnings);
   return understanding;
+}
+
+EmgUnderstanding understandEmg(const TimeSeries& recording) {
+  EmgChannels mapped = mapEmgChannels(recording.labels, {}, {});
+  return {findEmgSource(recording), std::move(mapped.channels), std::move(mapped.warnings)};
 }
 
 }  // namespace gaitmill

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/analysis/emg_channels.h"
+#include "core/analysis/emg_envelope.h"
 #include "core/analysis/foot_contacts.h"
 #include "core/data/marker_set.h"
 #include "core/data/marker_trajectories.h"
@@ -37,5 +39,15 @@ struct ForceUnderstanding {
 /// @param markers  the movement, or empty (no frames) if it is not there
 /// @throws Error kGrfColumns, kGrfValue, kGrfUnits as readGroundReaction
 ForceUnderstanding understandForces(const TableFile& table, const MarkerTrajectories& markers);
+
+struct EmgUnderstanding {
+  EmgSource source = EmgSource::kEnvelope;  ///< kRaw or kEnvelope
+  std::vector<EmgChannel> channels;         ///< with muscles of the project's own model
+  std::vector<std::string> warnings;        ///< names of channels that nobody knows
+};
+
+/// What a job with default settings takes a recording of EMG for.
+/// @throws Error kInputValue below two rows
+EmgUnderstanding understandEmg(const TimeSeries& recording);
 
 }  // namespace gaitmill

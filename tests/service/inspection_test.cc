@@ -49,7 +49,39 @@ TEST(InspectTrial, SaysWhatTheSampleTrialHolds) {
     EXPECT_LE(view.events[i - 1].time, view.events[i].time);
   }
   EXPECT_EQ(view.files[2].labels_kind, "columns");
+  EXPECT_EQ(view.files[2].format, "table");
+  ASSERT_TRUE(view.files[2].emg.has_value());
+  EXPECT_EQ(view.files[2].emg->source, "envelope");
+  ASSERT_EQ(view.files[2].emg->channels.size(), 10U);
+  EXPECT_EQ(view.files[2].emg->channels[0].channel, "SOL");
+  EXPECT_EQ(view.files[2].emg->channels[0].side, "right");
+  EXPECT_EQ(view.files[2].emg->channels[0].muscles, std::vector<std::string>{"soleus_r"});
   EXPECT_EQ(view.files[3].labels.size(), 80U);
+}
+
+TEST(InspectTrial, SaysWhatAnAnalogFileHolds) {
+  std::string text =
+      "File_Type:\tAnalog R/C ASCII\nBitDepth:\t16\tPreciseRate:\t1000\n\n"
+      "Name\tF1X\tL_TA\tEMG 7\t\nRate\t1000\t1000\t1000\t\nRange\t5000\t2500\t2500\t\n";
+  for (int i = 0; i < 100; ++i) {
+    const std::string count = std::to_string(i * 37 % 11 - 5);
+    text += std::to_string(0.001 * i) + "\t1\t" + count + "\t" + count + "\t\n";
+  }
+  api::TrialUpload upload;
+  upload.files["emg"] = {"emg.anc", api::makeByteSource(text)};
+  const api::TrialView view = inspectTrial(upload);
+  EXPECT_EQ(view.files[0].format, "anc");
+  EXPECT_NEAR(view.files[0].rate.value(), 1000.0, tol(1e-6));
+  EXPECT_EQ(view.files[0].frames, 100);
+  const api::EmgView& emg = view.files[0].emg.value();
+  EXPECT_EQ(emg.source, "raw");
+  EXPECT_EQ(emg.force_channels, std::vector<std::string>{"F1X"});
+  ASSERT_EQ(emg.channels.size(), 2U);
+  EXPECT_EQ(emg.channels[0].side, "left");
+  EXPECT_EQ(emg.channels[0].muscles, std::vector<std::string>{"tibant_l"});
+  EXPECT_TRUE(emg.channels[1].muscles.empty());
+  ASSERT_EQ(view.warnings.size(), 1U);
+  EXPECT_NE(view.warnings[0].find("'EMG 7'"), std::string::npos);
 }
 
 TEST(InspectTrial, NamesPartFileAndPlaceOfAFault) {

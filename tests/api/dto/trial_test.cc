@@ -75,7 +75,13 @@ TEST(Understanding, SurvivesStorage) {
   forces.labels_kind = "forces";
   forces.contacts = {{"1", "left", 0.5, 1.1, true, false}, {"2", "", 0.0, 0.4, false, true}};
   TrialView trial;
-  trial.files = {markers, forces};
+  UnderstoodFile emg;
+  emg.part = "emg";
+  emg.format = "anc";
+  emg.labels_kind = "columns";
+  emg.labels = {"GAS"};
+  emg.emg = EmgView{"raw", {{"GAS", "right", {"gasmed_r", "gaslat_r"}}}, {"F1X"}};
+  trial.files = {markers, forces, emg};
   trial.events = {{"foot_strike", "left", 0.5}};
   trial.warnings = {"a cut last row"};
   const std::string text = encodeUnderstanding(trial);
@@ -87,6 +93,10 @@ TEST(Understanding, SurvivesStorage) {
   EXPECT_FALSE(back.files[1].frames.has_value());
   EXPECT_EQ(back.files[1].contacts[1].foot, "");
   EXPECT_TRUE(back.files[1].contacts[1].has_toe_off);
+  EXPECT_FALSE(back.files[1].emg.has_value());
+  EXPECT_EQ(back.files[2].emg->source, "raw");
+  EXPECT_EQ(back.files[2].emg->channels[0].muscles.size(), 2U);
+  EXPECT_EQ(back.files[2].emg->force_channels, std::vector<std::string>{"F1X"});
   EXPECT_EQ(back.events[0].time, 0.5);
   EXPECT_EQ(back.warnings, trial.warnings);
 }

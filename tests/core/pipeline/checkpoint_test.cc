@@ -178,12 +178,13 @@ TEST(StageOutcome, TheLastOneOfEachNameIsTheResult) {
 TEST(StageOutcome, HoldsWhatTheStageMakes) {
   const std::vector<std::vector<std::string>> expected = {
       {},
-      {"kinematics", "marker_errors", "measured_markers"},
+      {"emg", "kinematics", "marker_errors", "measured_markers"},
       {"ground_reactions", "kinematics", "residuals"},
       {"joint_powers", "moments"},
-      {"activations", "forces", "reserves"},
+      {"activations", "emg", "forces", "reserves"},
       {"activations",
        "active_fiber_forces",
+       "emg",
        "excitations",
        "fiber_active_powers",
        "fiber_lengths",

@@ -92,5 +92,23 @@ TEST_F(SampleOutcome, ActivationsLieBetweenZeroAndOneAndNamesAreTheModels) {
   EXPECT_GT(cycle.values(55, soleus), 10.0 * cycle.values(85, soleus));
 }
 
+TEST_F(SampleOutcome, HoldsTheEmgBesideTheActivations) {
+  const TimeSeries& emg = run().result.tables.at("emg");
+  EXPECT_EQ(emg.columnCount(), 10);
+  EXPECT_TRUE(emg.values.allFinite());
+  const Json summary_emg = summary().at("emg");
+  EXPECT_EQ(summary_emg.at("processing").at("source"), "envelope");
+  EXPECT_EQ(summary_emg.at("activations_of"), "cmc");
+  // The muscles of the paper's comparison whose sample bursts follow its qualitative facts.
+  for (const Json& entry : summary_emg.at("comparison")) {
+    const std::string channel = entry.at("channel");
+    EXPECT_GT(entry.at("instants").get<int>(), 90) << channel;
+    EXPECT_TRUE(entry.at("correlation").is_number()) << channel;
+    if (channel == "SOL" || channel == "VL") {
+      EXPECT_GT(entry.at("correlation_without_lag").get<double>(), 0.5) << channel;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace gaitmill

@@ -48,6 +48,23 @@ TEST(Settings, FaultsNameTheFieldAndWhatWasExpected) {
             "stages.last"},
            {R"({"stages": {"first": "emg"}})", ErrorCode::kSettingsValue, "stages.first"},
            {R"({"so": {"exponent": 0.5}})", ErrorCode::kSettingsValue, "so.exponent"},
+           {R"({"emg": {"source": "cooked"}})", ErrorCode::kSettingsValue, "emg.source"},
+           {R"({"emg": {"band_pass_hz": [500, 50]}})",
+            ErrorCode::kSettingsValue,
+            "emg.band_pass_hz"},
+           {R"({"emg": {"band_pass_hz": [50]}})", ErrorCode::kSettingsValue, "emg.band_pass_hz"},
+           {R"({"emg": {"band_pass_order": 2.5}})",
+            ErrorCode::kSettingsValue,
+            "emg.band_pass_order"},
+           {R"({"emg": {"critically_damped_passes": 3}})",
+            ErrorCode::kSettingsValue,
+            "emg.critically_damped_passes"},
+           {R"({"emg": {"electromechanical_delay_s": -0.1}})",
+            ErrorCode::kSettingsValue,
+            "emg.electromechanical_delay_s"},
+           {R"({"emg": {"channels": {"GAS": "gaslat_r"}}})",
+            ErrorCode::kSettingsValue,
+            "emg.channels.GAS"},
            {R"({"trial": {"force_threshold_n": -1}})",
             ErrorCode::kSettingsValue,
             "trial.force_threshold_n"}}) {
@@ -109,7 +126,8 @@ std::vector<Json::json_pointer> listObjects(const Json& document) {
   const std::function<void(const Json&, const Json::json_pointer&)> visit =
       [&](const Json& value, const Json::json_pointer& path) {
         const std::string name = path.empty() ? "" : path.back();
-        if (!value.is_structured() || name == "coordinates" || name == "weights") {
+        if (!value.is_structured() || name == "coordinates" || name == "weights" ||
+            name == "channels") {
           return;
         }
         if (value.is_object()) {
@@ -150,6 +168,35 @@ TEST(Settings, NullEmptiesWhatMayBeEmpty) {
   EXPECT_FALSE(settings.rra.lowpass_cutoff.has_value());
   EXPECT_FALSE(settings.rra.actuators.residuals.has_value());
   EXPECT_EQ(settings.rra.actuators.coordinates.at("hip_flexion"), 1000);
+}
+
+// Rajagopal et al. (2016), appendix; spec/signal.md 2 on the ends, spec/paper_metrics.md D1 on GAS.
+TEST(Settings, PaperTrialsProcessEmgAsPublished) {
+  for (const std::string name : {"paper_walk", "paper_run"}) {
+    const EmgSettings emg = readText(readFile("models/settings/" + name + ".json")).emg;
+    EXPECT_EQ(emg.processing.band_pass->low, 50) << name;
+    EXPECT_EQ(emg.processing.band_pass->high, 500) << name;
+    EXPECT_EQ(emg.processing.band_pass_order, 6) << name;
+    EXPECT_EQ(emg.processing.butterworth, 7.5) << name;
+    EXPECT_EQ(emg.processing.butterworth_order, 4) << name;
+    EXPECT_EQ(emg.processing.critically_damped, 15) << name;
+    EXPECT_EQ(emg.processing.critically_damped_passes, 4) << name;
+    EXPECT_EQ(emg.processing.ends, EdgeTreatment::kZeroStart) << name;
+    EXPECT_EQ(emg.electromechanical_delay, 0) << name;
+  }
+  const EmgSettings walk = readText(readFile("models/settings/paper_walk.json")).emg;
+  EXPECT_EQ(walk.mapping.channels.at("GAS"), std::vector<std::string>{"gaslat_r"});
+}
+
+TEST(Settings, EmgChannelsAndStepsCanBeSet) {
+  const EmgSettings emg = readText(R"({"emg": {"side": "left", "butterworth_hz": null,
+      "band_pass_hz": [20, 450], "channels": {"GAS": ["gasmed_r", "gaslat_r"], "SYNC": []}}})")
+                              .emg;
+  EXPECT_EQ(emg.mapping.side, BodySide::kLeft);
+  EXPECT_FALSE(emg.processing.butterworth.has_value());
+  EXPECT_EQ(emg.processing.band_pass->high, 450);
+  EXPECT_EQ(emg.mapping.channels.at("GAS").size(), 2U);
+  EXPECT_TRUE(emg.mapping.channels.at("SYNC").empty());
 }
 
 TEST(Settings, StagesCanStartLateStopEarlyAndBeSkipped) {
