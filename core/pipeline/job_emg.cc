@@ -12,6 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/emg_reader.h"
+#include "core/pipeline/quality_json.h"
 
 namespace gaitmill {
 
@@ -100,11 +101,6 @@ bool makesActivations(Stage stage) {
   return stage == Stage::kSo || stage == Stage::kCmc;
 }
 
-/// JSON has no NaN: a figure that does not exist is null.
-Json toJson(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json toJson(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
@@ -130,7 +126,7 @@ Json summarizeProcessing(const Job& job) {
   return {{"source", raw ? "raw" : "envelope"},
           {"source_told_from", job.settings.emg.source == EmgSource::kAuto ? "signal" : "settings"},
           {"filtered", raw},
-          {"rate_hz", toJson(processed.rate)},
+          {"rate_hz", toJsonNumber(processed.rate)},
           {"band_pass_hz", band},
           {"band_pass_order", used.band_pass_order},
           {"butterworth_hz", toJson(used.butterworth)},
@@ -143,7 +139,7 @@ Json summarizeProcessing(const Job& job) {
 Json summarizeBursts(const std::vector<ActivityBurst>& bursts) {
   Json list = Json::array();
   for (const ActivityBurst& burst : bursts) {
-    list.push_back({toJson(burst.onset), toJson(burst.offset)});
+    list.push_back({toJsonNumber(burst.onset), toJsonNumber(burst.offset)});
   }
   return list;
 }
@@ -153,18 +149,18 @@ Json summarizeComparison(const EmgComparison& comparison) {
           {"muscles", comparison.muscles},
           {"side", sideName(comparison.side)},
           {"instants", comparison.instants},
-          {"emg_peak", toJson(comparison.emg_peak)},
-          {"activation_peak", toJson(comparison.activation_peak)},
-          {"scale", toJson(comparison.scale)},
-          {"rms_difference_of_peak", toJson(comparison.rms_difference)},
-          {"overlap", toJson(comparison.overlap)},
+          {"emg_peak", toJsonNumber(comparison.emg_peak)},
+          {"activation_peak", toJsonNumber(comparison.activation_peak)},
+          {"scale", toJsonNumber(comparison.scale)},
+          {"rms_difference_of_peak", toJsonNumber(comparison.rms_difference)},
+          {"overlap", toJsonNumber(comparison.overlap)},
           {"emg_bursts_percent", summarizeBursts(comparison.emg_bursts)},
           {"simulated_bursts_percent", summarizeBursts(comparison.simulated_bursts)},
-          {"onset_difference_percent", toJson(comparison.onset_difference)},
-          {"offset_difference_percent", toJson(comparison.offset_difference)},
-          {"correlation", toJson(comparison.correlation)},
-          {"lag_percent", toJson(comparison.lag)},
-          {"correlation_without_lag", toJson(comparison.correlation_at_zero)}};
+          {"onset_difference_percent", toJsonNumber(comparison.onset_difference)},
+          {"offset_difference_percent", toJsonNumber(comparison.offset_difference)},
+          {"correlation", toJsonNumber(comparison.correlation)},
+          {"lag_percent", toJsonNumber(comparison.lag)},
+          {"correlation_without_lag", toJsonNumber(comparison.correlation_at_zero)}};
 }
 
 Json summarizeComparisons(const Job& job) {
