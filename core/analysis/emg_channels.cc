@@ -27,7 +27,7 @@ struct KnownMuscle {
 // gastrocnemius. Abbreviations: those of the published trials, of SENIAM and of common EMG systems.
 constexpr std::array<KnownMuscle, 33> kKnownMuscles = {{
     {"gaslat lg gl galat latgas gastrolat gastlat", "gas lat", "gaslat", "latgas"},
-    {"gasmed mg gm1 gamed medgas gastromed gastmed mgas", "gas med", "gasmed", "medgas"},
+    {"gasmed mg gamed medgas gastromed gastmed mgas", "gas med", "gasmed", "medgas"},
     {"gas ga gastroc gastro gastrocs", "gas", "gasmed gaslat", "medgas latgas gastroc"},
     {"sol so", "sol", "soleus", ""},
     {"ta tib tibant", "tib ant", "tibant", ""},
