@@ -28,8 +28,8 @@ struct EmgComparison {
   double activation_peak;  ///< over the cycle [-]
   double scale;            ///< D2: activation_peak / emg_peak; EMG is shown times this
   double rms_difference;   ///< of EMG times scale and activation, per activation_peak [-]
-  /// D5. On is a value of at least 20 % of the peak; times on or off below 3 % of the cycle do not
-  /// count.
+  /// D5. On is a value of at least 20 % of the peak; times on, off or not recorded below 3 % of the
+  /// cycle do not count.
   double overlap;  ///< fraction of the instants at which both are on or both are off
   std::vector<ActivityBurst> emg_bursts;
   std::vector<ActivityBurst> simulated_bursts;

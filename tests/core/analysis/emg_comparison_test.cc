@@ -138,6 +138,18 @@ TEST(EmgComparison, WhatTheRecordDoesNotShowIsNotTold) {
   EXPECT_EQ(cut.overlap, 1.0);
 }
 
+TEST(EmgComparison, APercentThatIsMissingHidesNoBurst) {
+  // 99 % is not recorded; a burst of 79.6 to 20.4 % goes over it.
+  const EmgComparison short_of = compareEmg(makeRecord("emg", makeTriangle(0), 1.5, 3.5),
+                                            makeRecord("activations", makeTriangle(2), 2.0, 2.985),
+                                            makeChannel({"m"}),
+                                            kCycle);
+  EXPECT_EQ(short_of.instants, 99);
+  ASSERT_EQ(short_of.emg_bursts.size(), 1U);
+  EXPECT_NEAR(short_of.emg_bursts[0].onset, 79.6, tol(1e-6));
+  EXPECT_NEAR(short_of.onset_difference, 2.0, tol(1e-6));
+}
+
 TEST(EmgComparison, RecordsWithoutCommonTimeHaveNoFigures) {
   const EmgComparison none = compareEmg(makeRecord("emg", makeTriangle(50), 7.0, 8.0),
                                         makeRecord("activations", makeTriangle(50), 2.0, 3.0),

@@ -28,6 +28,7 @@ struct TrialCase {
   const char* static_markers_2;
   const char* markers;
   const char* forces;
+  const char* emg;
   double mass, height;
   std::vector<std::string> missed;
   /// What else warns: figures that the field's guidance bounds and the paper does not.
@@ -40,6 +41,7 @@ const TrialCase kWalk = {"walk",
                          "walk/static_walk_2.trc",
                          "walk/motion_capture_walk.trc",
                          "walk/grf_walk.mot",
+                         "walk/emg_walk_raw.anc",
                          85.0668,
                          1.829,
                          {"RRA, largest rotation", "RRA, the same as the script prints it"},
@@ -56,6 +58,7 @@ const TrialCase kRun = {"run",
                         nullptr,
                         "run/paper_subject01/motion_capture_run.trc",
                         "run/paper_subject01/grf_run.mot",
+                        "run/paper_subject01/emg_run_raw.csv",
                         72.84,
                         1.80,
                         {"RRA, largest RMS translation"},
@@ -84,6 +87,7 @@ class PaperTrialTest : public SharedDataTest, public ::testing::WithParamInterfa
     }
     input.markers = open(trial.markers);
     input.ground_reaction = open(trial.forces);
+    input.emg = open(trial.emg);
     input.mass = trial.mass;
     input.height = trial.height;
     const std::string settings = "models/settings/paper_" + std::string(trial.name) + ".json";
@@ -140,6 +144,22 @@ class PaperTrialTest : public SharedDataTest, public ::testing::WithParamInterfa
     }
     std::cout << "\n";
   }
+  static void printEmg(const nlohmann::json& emg) {
+    std::cout << "  EMG against activation: channel, overlap, correlation at lag (percent), "
+                 "without lag, onset and offset differences (percent)\n";
+    for (const nlohmann::json& entry : emg["comparison"]) {
+      std::cout << "    " << entry["channel"].get<std::string>();
+      for (const char* figure : {"overlap",
+                                 "correlation",
+                                 "lag_percent",
+                                 "correlation_without_lag",
+                                 "onset_difference_percent",
+                                 "offset_difference_percent"}) {
+        std::cout << " " << entry[figure];
+      }
+      std::cout << "\n";
+    }
+  }
 };
 
 TEST_P(PaperTrialTest, RunsUnattendedAndMissesNothingElseOfTheAcceptanceList) {
@@ -168,6 +188,18 @@ TEST_P(PaperTrialTest, RunsUnattendedAndMissesNothingElseOfTheAcceptanceList) {
         compare(result.tables.at("forces"), "tendon_force_N.csv", model, true));
   print("activation, RMS",
         compare(result.tables.at("activations"), "activation.csv", model, false));
+  const nlohmann::json emg = nlohmann::json::parse(result.summary_json)["emg"];
+  printEmg(emg);
+  EXPECT_EQ(emg["processing"]["source"], "raw");
+  // The plantarflexors are what spec/paper_metrics.md D6 is clearest about: one burst before
+  // toe-off.
+  for (const nlohmann::json& entry : emg["comparison"]) {
+    EXPECT_GE(entry["instants"].get<int>(), 99) << entry["channel"];
+    if (entry["muscles"] == nlohmann::json{"soleus_r"}) {
+      EXPECT_GT(entry["correlation"].get<double>(), 0.9);
+      EXPECT_EQ(entry["emg_bursts_percent"].size(), 1U);
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Paper,

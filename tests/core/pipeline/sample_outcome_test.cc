@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -99,13 +100,14 @@ TEST_F(SampleOutcome, HoldsTheEmgBesideTheActivations) {
   const Json summary_emg = summary().at("emg");
   EXPECT_EQ(summary_emg.at("processing").at("source"), "envelope");
   EXPECT_EQ(summary_emg.at("activations_of"), "cmc");
-  // The muscles of the paper's comparison whose sample bursts follow its qualitative facts.
+  // The envelopes are those of the textbook, the motion is made up: curves of the same shape, the
+  // simulated ones some percent later.
   for (const Json& entry : summary_emg.at("comparison")) {
     const std::string channel = entry.at("channel");
-    EXPECT_GT(entry.at("instants").get<int>(), 90) << channel;
-    EXPECT_TRUE(entry.at("correlation").is_number()) << channel;
-    if (channel == "SOL" || channel == "VL") {
-      EXPECT_GT(entry.at("correlation_without_lag").get<double>(), 0.5) << channel;
+    EXPECT_EQ(entry.at("instants"), 100) << channel;
+    if (channel == "SOL" || channel == "VL" || channel == "GMED") {
+      EXPECT_GT(entry.at("correlation").get<double>(), 0.8) << channel;
+      EXPECT_LE(std::abs(entry.at("lag_percent").get<double>()), 15) << channel;
     }
   }
 }
