@@ -1,11 +1,14 @@
-// Writes the specification, the bare data and our own picture of every figure of the sample job
-// into a folder: NAME.vl.json, NAME.data.json, NAME.svg. usage: figure_specs FOLDER
+// Writes the specification, the bare data and our own picture of figures into a folder: all of the
+// sample job, overlays, one of several cycles, the validation of the model. NAME.vl.json,
+// NAME.data.json, NAME.svg. usage: figure_specs FOLDER
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <fstream>
 #include <string>
 
 #include "api/dto/vega_lite.h"
+#include "core/base/units.h"
 #include "core/figure/comparison.h"
 #include "core/figure/job_figures.h"
 #include "core/figure/svg.h"
@@ -61,6 +64,33 @@ void writeSampleJob(const std::string& folder) {
   writeOverlays(folder, source);
 }
 
+// Three cycles of both knees that differ by a tenth, a little of it not measured: bands and gaps.
+void writeSeveralCycles(const std::string& folder) {
+  gaitmill::TimeSeries table;
+  table.labels = {"knee_angle_r", "knee_angle_l"};
+  table.units = {"rad", "rad"};
+  for (int i = 0; i <= 400; ++i) {
+    table.time.push_back(0.01 * i);
+  }
+  table.values.resize(table.rowCount(), table.columnCount());
+  for (int row = 0; row < table.rowCount(); ++row) {
+    const double time = table.time[static_cast<std::size_t>(row)];
+    const double size = 0.9 + 0.1 * std::floor(time);
+    table.values(row, 0) = 0.5 * size * (1 - std::cos(2 * gaitmill::kPi * time));
+    table.values(row, 1) = 0.5 * size * (1 + std::cos(2 * gaitmill::kPi * time));
+  }
+  table.values.block(20, 0, 5, 1).setConstant(std::nan(""));
+  const gaitmill::MemoryResults source({{"kinematics", table}},
+                                       {},
+                                       R"({"gait_cycle_s": [0, 1],
+      "cycles": {"right": [[0, 1], [1, 2], [2, 3]], "left": [[0.5, 1.5], [1.5, 2.5]]},
+      "events": [{"kind": "toe_off", "foot": "right", "time_s": 0.6},
+                 {"kind": "toe_off", "foot": "left", "time_s": 1.15}]})");
+  Figure figure = gaitmill::makeFigure(source, "joint_angles");
+  figure.name = "several_cycles";
+  writeFigure(folder, figure);
+}
+
 // The curves of one muscle stand for those of all.
 void writeValidation(const std::string& folder) {
   const gaitmill::InputFile document =
@@ -81,6 +111,7 @@ int main(int argc, char** argv) {
   try {
     gaitmill::require(argc == 2, gaitmill::ErrorCode::kUsage, "usage: figure_specs FOLDER");
     writeSampleJob(argv[1]);
+    writeSeveralCycles(argv[1]);
     writeValidation(argv[1]);
     return 0;
   } catch (const std::exception& error) {
