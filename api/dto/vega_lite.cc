@@ -354,6 +354,7 @@ json renderConfig() {
           {"legend",
            {{"orient", "top"},
             {"symbolType", "stroke"},
+            {"symbolOpacity", 1},
             {"symbolSize", 400},
             {"symbolStrokeWidth", 2},
             {"labelFontSize", 11},

@@ -309,17 +309,21 @@ class PanelPainter {
     return points;
   }
 
+  // A value that is not a number ends one area; the next begins another.
   void paintBand(const Series& series, const SeriesStyle& style) {
     const std::vector<Point> upper = placeAll(series.x, series.y);
     const std::vector<Point> lower = placeAll(series.x, series.low);
+    const std::size_t count = std::min(upper.size(), lower.size());
     std::vector<Point> outline;
-    for (std::size_t i = 0; i < std::min(upper.size(), lower.size()); ++i) {
-      if (std::isfinite(upper[i].y) && std::isfinite(lower[i].y)) {
+    for (std::size_t i = 0; i <= count; ++i) {
+      if (i < count && std::isfinite(upper[i].y) && std::isfinite(lower[i].y)) {
         outline.insert(outline.begin() + static_cast<std::ptrdiff_t>(outline.size() / 2),
                        {upper[i], lower[i]});
+        continue;
       }
+      canvas_.addArea(outline, style.color);
+      outline.clear();
     }
-    canvas_.addArea(outline, style.color);
   }
 
   // Bars of one category stand side by side, one place for each name: two series of one name, say

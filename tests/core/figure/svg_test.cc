@@ -73,6 +73,13 @@ TEST(Svg, ANumberThatIsNoneInterruptsTheCurve) {
   EXPECT_EQ(path.find("nan"), std::string::npos);
 }
 
+TEST(Svg, ANumberThatIsNoneSplitsABand) {
+  Series band = makeLine({2, 3, std::numeric_limits<double>::quiet_NaN(), 3, 2});
+  band.mark = SeriesMark::kBand;
+  band.low = {1, 2, 2, 2, 1};
+  EXPECT_EQ(count(renderSvg(makeFigureOf(band)), "fill-opacity=\"0.2\""), 2U);
+}
+
 TEST(Svg, BandsBarsAndGuidesAreDrawn) {
   Series band = makeLine({2, 3});
   band.mark = SeriesMark::kBand;
