@@ -103,7 +103,9 @@ class Analyst {
     paths_.calc(state_);
     paths_.calcSpeeds(u_, path_speeds_);
     free_.reduceColumns(paths_.momentArms(), arms_);
-    largest_arms_ = largest_arms_.cwiseMax(arms_.cwiseAbs().colwise().maxCoeff().transpose());
+    for (int muscle = 0; muscle < model_.muscleCount(); ++muscle) {
+      largest_arms_ = largest_arms_.cwiseMax(arms_.row(muscle).cwiseAbs().transpose());
+    }
   }
 
   Sample readSample(int row, int muscle) const {

@@ -82,7 +82,7 @@ TimeSeries makeJointPowers(const Job& job) {
     const bool slides = model.motionKind(c) == MotionKind::kTranslational;
     forces.push_back(name + (slides ? "_force" : "_moment"));
     for (const CouplerSpec& coupler : job.adjusted.couplers) {
-      if (coupler.independent == name) {
+      if (coupler.enforced && coupler.independent == name) {
         forces.back() += "_with_" + coupler.dependent;
       }
     }

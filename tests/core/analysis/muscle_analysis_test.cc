@@ -138,5 +138,16 @@ TEST(MuscleAnalysis, MomentsSplitIntoActiveAndPassive) {
   EXPECT_EQ(moments.units[0], "N");
 }
 
+TEST(MuscleAnalysis, AModelWithoutMusclesHasEmptyTables) {
+  const Model model(makeSlider("sled"));
+  const TimeSeries motion = makeCell("x", 0);
+  const TimeSeries nothing = makeTimeSeries("forces", {}, {0.0});
+  const MuscleAnalysis result =
+      analyzeMuscles(model, {FiberSource::kRigidActive, motion, motion, nothing, nothing, nullptr});
+  EXPECT_EQ(result.muscle_powers.columnCount(), 0);
+  EXPECT_EQ(result.muscle_moments.columnCount(), 0);
+  EXPECT_EQ(result.muscle_moments.rowCount(), 1);
+}
+
 }  // namespace
 }  // namespace gaitmill
