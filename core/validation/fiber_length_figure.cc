@@ -152,8 +152,8 @@ bool hasFiberLengthFigure(const ModelSpec& model) {
     return false;
   }
   try {
-    const Model built(model);
-    const GaitMotion motion(built, {});
+    const PosedMuscles posed(model);
+    const GaitMotion motion(posed.model(), {});
     return true;
   } catch (const Error&) {
     return false;

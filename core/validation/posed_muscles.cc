@@ -6,11 +6,18 @@ namespace gaitmill {
 
 namespace {
 
-ModelSpec releaseLocks(ModelSpec spec) {
+// Locks are released. Masses play no part in paths and arms: replaced, so that a document whose
+// inertia no body can have (the toes of Rajagopal2015) can be posed.
+ModelSpec makePosable(ModelSpec spec) {
   for (JointSpec& joint : spec.joints) {
     for (CoordinateSpec& coordinate : joint.coordinates) {
       coordinate.locked = false;
     }
+  }
+  for (BodySpec& body : spec.bodies) {
+    body.mass = 1;
+    body.mass_center.setZero();
+    body.inertia = {1, 1, 1, 0, 0, 0};
   }
   return spec;
 }
@@ -33,7 +40,7 @@ IsometricForce calcIsometricForce(const Muscle& muscle, double activation, doubl
 }
 
 PosedMuscles::PosedMuscles(const ModelSpec& model)
-    : model_(releaseLocks(model)),
+    : model_(makePosable(model)),
       free_(model_),
       muscles_(makeMuscles(model.muscles)),
       neutral_(model_.coordinateCount()),

@@ -37,7 +37,8 @@ IsometricForce calcIsometricForce(const Muscle& muscle, double activation, doubl
 /// anatomist or a dynamometer would find them. One per thread.
 class PosedMuscles {
  public:
-  /// Locks of the document are released: a figure may move any coordinate.
+  /// Locks of the document are released: a figure may move any coordinate. Masses and inertias are
+  /// not those of the document, which need not be sound.
   /// @throws Error as Model and makeMuscles
   explicit PosedMuscles(const ModelSpec& model);
   PosedMuscles(const PosedMuscles&) = delete;
