@@ -21,10 +21,6 @@ Eigen::Matrix3d calcAxes(const View& view) {
   return R_CG;
 }
 
-double calcFocalLength(const Frame& frame) {
-  return 0.5 * (frame.bottom - frame.top) / kHalfHeight;
-}
-
 }  // namespace
 
 Eigen::Vector3d Camera::project(const Eigen::Vector3d& p_G) const {
@@ -51,11 +47,15 @@ Eigen::Matrix4d Camera::calcClipMatrix(int left, int top, int width, int height)
   return clip * view;
 }
 
+double findFocalLength(const Frame& frame) {
+  return 0.5 * (frame.bottom - frame.top) / kHalfHeight;
+}
+
 Framing fitFraming(const std::vector<Eigen::Vector3f>& points,
                    const View& view,
                    const Frame& frame) {
   const Eigen::Matrix3d R_CG = calcAxes(view);
-  const double focal = calcFocalLength(frame);
+  const double focal = findFocalLength(frame);
   const double half_width = 0.5 * (frame.right - frame.left) / focal;
   Eigen::Vector3d lowest = Eigen::Vector3d::Constant(1e30), highest = -lowest;
   for (const Eigen::Vector3f& p : points) {
@@ -84,7 +84,7 @@ Camera makeCamera(const View& view,
   Camera camera;
   camera.R_CG = calcAxes(view);
   camera.eye = follow + framing.aim + framing.distance * camera.R_CG.row(2).transpose();
-  camera.focal_length = calcFocalLength(frame);
+  camera.focal_length = findFocalLength(frame);
   camera.center = {0.5 * (frame.left + frame.right), 0.5 * (frame.top + frame.bottom)};
   camera.near_depth = 0.2 * framing.distance;
   camera.far_depth = 4 * framing.distance;

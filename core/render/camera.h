@@ -46,6 +46,9 @@ Framing fitFraming(const std::vector<Eigen::Vector3f>& points,
                    const View& view,
                    const Frame& frame);
 
+/// Distance of the image plane from the eye [px]: pixels per metre, times the depth.
+double findFocalLength(const Frame& frame);
+
 /// @param follow  ground below the pelvis [m]
 Camera makeCamera(const View& view,
                   const Framing& framing,

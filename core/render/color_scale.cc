@@ -54,6 +54,14 @@ Rgb fromLab(const std::array<double, 3>& lab) {
           byte(0.0556434 * x - 0.2040259 * y + 1.0572252 * z)};
 }
 
+Rgb blend(const Rgb& a, const Rgb& b, double t) {
+  Rgb result{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    result[i] = static_cast<std::uint8_t>(std::lround((1 - t) * a[i] + t * b[i]));
+  }
+  return result;
+}
+
 Rgb ColorScale::findColor(double value) const {
   if (std::isnan(value)) return kUnknownMuscle;
   const double share = std::clamp((value - lowest) / (highest - lowest), 0.0, 1.0);
@@ -74,7 +82,7 @@ const ColorScale& getColorScale(MuscleColor color) {
       0,
       1,
       {0, 0.5, 1},
-      {{38, 66, 158}, {106, 62, 160}, {172, 50, 118}, {224, 30, 38}}};
+      {{44, 92, 200}, {116, 84, 200}, {190, 62, 138}, {228, 36, 36}}};
   // Dark to bright, one hue family apart from activation's, so that the two are not mistaken.
   static const ColorScale force = {
       "Force / max. isometric",

@@ -29,6 +29,9 @@ const ColorScale& getColorScale(MuscleColor color);
 inline constexpr Rgb kUnknownMuscle{150, 152, 158};
 inline constexpr Rgb kPlainMuscle{170, 84, 76};
 
+/// `a` at t = 0, `b` at t = 1.
+Rgb blend(const Rgb& a, const Rgb& b, double t);
+
 /// CIELAB of an sRGB colour (D65).
 std::array<double, 3> toLab(const Rgb& color);
 Rgb fromLab(const std::array<double, 3>& lab);  ///< clipped to what screens show

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/base/units.h"
+#include "core/render/color_scale.h"
 #include "core/render/scene.h"
 
 namespace gaitmill {
@@ -12,6 +14,7 @@ constexpr Rgb kFloorColor{214, 219, 226};
 constexpr Rgb kShadowColor{120, 130, 146};
 constexpr Rgb kGridColor{150, 160, 174};
 constexpr double kGridWidth = 0.006;  // [m]
+constexpr double kLineWidth = 0.03;   // [m] seen at a flat angle
 constexpr double kGridOpacity = 0.7;
 constexpr int kRadialSteps = 40;
 constexpr int kAngularSteps = 64;
@@ -24,21 +27,29 @@ struct Shade {
   double strength = 0;
 };
 
+// A box around the bones of one body, in its frame.
+struct BodyBox {
+  Eigen::Vector3f lowest = Eigen::Vector3f::Constant(1e9F);
+  Eigen::Vector3f highest = Eigen::Vector3f::Constant(-1e9F);
+};
+
 std::vector<Shade> makeShades(const Subject& subject) {
-  std::vector<Shade> shades;
+  std::map<int, BodyBox> boxes;
   for (const BodyMesh& bone : subject.bones()) {
-    const Pose& X_GB = subject.pose(bone.body);
-    Eigen::Vector3f lowest = Eigen::Vector3f::Constant(1e9F), highest = -lowest;
+    BodyBox& box = boxes[bone.body.value()];
     for (const Eigen::Vector3f& v : bone.mesh.vertices) {
-      lowest = lowest.cwiseMin(v);
-      highest = highest.cwiseMax(v);
+      box.lowest = box.lowest.cwiseMin(v);
+      box.highest = box.highest.cwiseMax(v);
     }
-    const Eigen::Vector3f middle = 0.5F * (lowest + highest);
-    const double size = 0.5 * static_cast<double>((highest - lowest).norm());
-    const Eigen::Vector3d p = X_GB * middle.cast<double>();
-    const double height = std::max(0.0, p.y());
-    const double spread = 0.03 + 0.45 * size + 0.16 * height;
-    shades.push_back({{p.x(), p.z()}, spread, 0.75 * size / (spread + size)});
+  }
+  std::vector<Shade> shades;
+  for (const auto& [body, box] : boxes) {
+    if (!(box.lowest.array() <= box.highest.array()).all()) continue;
+    const Eigen::Vector3d middle = (0.5F * (box.lowest + box.highest)).cast<double>();
+    const double size = 0.5 * static_cast<double>((box.highest - box.lowest).norm());
+    const Eigen::Vector3d p = subject.pose(BodyIndex(body)) * middle;
+    const double spread = 0.03 + 0.45 * size + 0.2 * std::max(0.0, p.y());
+    shades.push_back({{p.x(), p.z()}, spread, 0.6 * size / (spread + size)});
   }
   return shades;
 }
@@ -57,14 +68,6 @@ double findShade(const std::vector<Shade>& shades, double x, double z) {
 double calcFade(double distance, double radius) {
   const double t = std::clamp(distance / radius, 0.0, 1.0);
   return (1 - t * t) * (1 - t * t);
-}
-
-Rgb blend(const Rgb& a, const Rgb& b, double t) {
-  Rgb result{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    result[i] = static_cast<std::uint8_t>(std::lround((1 - t) * a[i] + t * b[i]));
-  }
-  return result;
 }
 
 void addFloorVertex(double x, double z, const Rgb& color, double opacity, Surface& surface) {
@@ -122,11 +125,27 @@ void addGridLine(
   }
 }
 
+// From one edge of a strip's pose to the other.
+void addLine(const Eigen::Vector3d& center, const Eigen::Vector3d& half_line, Surface& surface) {
+  const Eigen::Vector3d along = half_line.normalized();
+  const Eigen::Vector3d across = 0.5 * kLineWidth * Eigen::Vector3d(-along.z(), 0, along.x());
+  const std::uint32_t first = surface.nextIndex();
+  for (const double end : {-1.0, 1.0}) {
+    for (const double side : {-1.0, 1.0}) {
+      const Eigen::Vector3d p = center + end * half_line + side * across;
+      addFloorVertex(p.x(), p.z(), kGridColor, 1, surface);
+    }
+  }
+  surface.addTriangle(first, first + 1, first + 2);
+  surface.addTriangle(first + 1, first + 3, first + 2);
+}
+
 }  // namespace
 
 void makeFloor(const Subject& subject, const FloorStyle& style, Surface& surface) {
   const Eigen::Vector3d center = subject.findFollowPoint();
   addDisc(center, style.radius, makeShades(subject), surface);
+  if (style.half_line.norm() > 0) addLine(center, style.half_line, surface);
   if (style.grid_spacing <= 0) return;
   for (const int axis : {0, 1}) {
     // Lines stand still in the laboratory while the camera goes along.

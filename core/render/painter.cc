@@ -23,6 +23,8 @@ namespace {
 // Instants at which the body's extent is looked at. A stride moves smoothly between two of them.
 constexpr int kOutlineInstants = 24;
 constexpr double kFloorRadius = 2.4;  // [m]
+// Radius of the thinnest muscle [px]: less would come and go between samples.
+constexpr double kThinnest = 0.75;
 // Share of a strip's pose that its floor fills, so that neighbours do not meet at an edge.
 constexpr double kStripFloorShare = 0.98;
 
@@ -94,7 +96,11 @@ struct Painter::Impl {
           motion.rowCount() > 0
               ? motion.time.front() + share * (motion.time.back() - motion.time.front())
               : 0;
-      subject->setPose(motion, time);
+      try {
+        subject->setPose(motion, time);
+      } catch (const Error&) {
+        continue;  // a gap in the motion; who asks for a picture of it is told
+      }
       collectOutline(*subject, subject->findFollowPoint(), outline);
     }
     outlined = motion;
@@ -112,7 +118,8 @@ struct Painter::Impl {
     subject->setPose(data.kinematics, time);
     figure.clear();
     floor.clear();
-    makeFigure(*subject, data, time, options, figure);
+    const double pixel = framing.distance / findFocalLength(frame);
+    makeFigure(*subject, data, time, options, kThinnest * pixel, figure);
     if (options.ground) makeFloor(*subject, floor_style, floor);
     const Camera camera = makeCamera(options.view, framing, frame, subject->findFollowPoint());
     renderer->draw(floor, figure, camera, region, image);
@@ -136,8 +143,7 @@ struct Painter::Impl {
   }
 
   static double findPixelsPerNewton(const Framing& framing, const Frame& frame) {
-    const Camera camera = makeCamera({}, framing, frame, Eigen::Vector3d::Zero());
-    return kArrowLengthPerForce * camera.focal_length / framing.distance;
+    return kArrowLengthPerForce * findFocalLength(frame) / framing.distance;
   }
 };
 
@@ -170,8 +176,10 @@ Picture Painter::paintStrip(
   const Frame frame{margin, layout.body.top, options.width - margin, label_base - 2.5 * cap};
   const Framing framing = fitFraming(s.outline, options.view, frame);
   const Camera camera = makeCamera(options.view, framing, frame, Eigen::Vector3d::Zero());
-  const double half_width = 0.5 * options.width * framing.distance / camera.focal_length;
-  const FloorStyle floor_style{std::min(kFloorRadius, kStripFloorShare * half_width), 0};
+  const double half_width = 0.5 * options.width * framing.distance / findFocalLength(frame);
+  const FloorStyle floor_style{std::min(kFloorRadius, kStripFloorShare * half_width),
+                               0,
+                               1.3 * half_width * camera.R_CG.row(0).transpose()};
   for (int pose = 0; pose < count; ++pose) {
     const double share = count > 1 ? static_cast<double>(pose) / (count - 1) : 0;
     const double time = clampTime(data.kinematics, start + share * (end - start));

@@ -10,6 +10,7 @@
 #include <GL/osmesa.h>
 
 #include "core/base/error.h"
+#include "core/render/color_scale.h"
 #include "core/render/shaders.h"
 
 namespace gaitmill {
@@ -132,14 +133,8 @@ void setVector(GLuint program, const char* name, const Eigen::Vector3d& vector) 
 
 // Sky at the top of the region, floor haze at its bottom; in clip coordinates of the tile.
 Surface makeBackground(double top_share, double bottom_share) {
-  const auto blend = [](double t) {
-    Rgb color{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      color[i] = static_cast<std::uint8_t>(kSkyColor[i] + t * (kBottomColor[i] - kSkyColor[i]));
-    }
-    return color;
-  };
-  const Rgb top = blend(top_share), bottom = blend(bottom_share);
+  const Rgb top = blend(kSkyColor, kBottomColor, top_share);
+  const Rgb bottom = blend(kSkyColor, kBottomColor, bottom_share);
   const Eigen::Vector3f n = Eigen::Vector3f::UnitZ();
   Surface surface;
   surface.vertices = {{{-1, 1, 0}, n, top, 255},

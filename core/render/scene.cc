@@ -22,8 +22,10 @@ constexpr double kMinimumForce = 10;      // [N] less shows nothing but the plat
 constexpr double kSpecificTension = 60e4;
 constexpr double kTendonRadius = 0.0026;  // [m]
 constexpr double kMinimumBelly = 0.0036;
-constexpr double kMaximumBelly = 0.0125;
+constexpr double kMaximumBelly = 0.014;
 constexpr double kRingStep = 0.02;  // [m] along a path
+constexpr Rgb kTendonColor{236, 222, 196};
+constexpr double kTendonPaleness = 0.7;
 
 void addBones(const Subject& subject, Surface& surface) {
   for (const BodyMesh& bone : subject.bones()) {
@@ -50,15 +52,17 @@ std::vector<Rgb> findMuscleColors(const ModelSpec& model,
   return colors;
 }
 
-void addMuscles(
-    Subject& subject, const TimeSeries& values, double time, MuscleColor color, Surface& surface) {
+void addMuscles(Subject& subject,
+                const std::vector<Rgb>& colors,
+                double thinnest,
+                Surface& surface) {
   const ModelSpec& model = subject.model().spec();
-  const std::vector<Rgb> colors = findMuscleColors(model, values, time, color);
   std::vector<PathVertex> path;
   for (std::size_t m = 0; m < model.muscles.size(); ++m) {
     subject.tracePath(MuscleIndex(static_cast<int>(m)), path);
-    addTube(
-        makeMuscleRings(path, findBellyRadius(model.muscles[m]), colors[m]), kMuscleGloss, surface);
+    addTube(makeMuscleRings(path, findMuscleShape(model.muscles[m]), colors[m], thinnest),
+            kMuscleGloss,
+            surface);
   }
 }
 
@@ -110,21 +114,30 @@ void addMarkers(const Subject& subject, const TimeSeries& table, double time, Su
 
 }  // namespace
 
-double findBellyRadius(const MuscleSpec& muscle) {
+MuscleShape findMuscleShape(const MuscleSpec& muscle) {
   const double volume = muscle.max_isometric_force * muscle.optimal_fiber_length / kSpecificTension;
-  // A spindle of a given slenderness: the radius goes with the third root of the volume.
-  return std::clamp(0.0135 * std::cbrt(volume / 4e-4), kMinimumBelly, kMaximumBelly);
+  const double fibers =
+      muscle.optimal_fiber_length / (muscle.optimal_fiber_length + muscle.tendon_slack_length);
+  // A spindle of a given slenderness: the radius goes with the third root of the volume. Pennate
+  // bellies are longer than their fibers, hence the offset.
+  return {std::clamp(0.0155 * std::cbrt(volume / 4e-4), kMinimumBelly, kMaximumBelly),
+          std::clamp(0.45 + 0.9 * fibers, 0.5, 1.0)};
 }
 
 std::vector<TubeRing> makeMuscleRings(const std::vector<PathVertex>& path,
-                                      double belly_radius,
-                                      const Rgb& color) {
+                                      const MuscleShape& shape,
+                                      const Rgb& color,
+                                      double thinnest) {
   double length = 0;
   for (std::size_t i = 1; i < path.size(); ++i) length += (path[i].p_G - path[i - 1].p_G).norm();
   std::vector<TubeRing> rings;
   const auto add = [&](const Eigen::Vector3d& p, double along) {
-    const double swell = std::sin(kPi * std::clamp(along / length, 0.0, 1.0));
-    rings.push_back({p, kTendonRadius + (belly_radius - kTendonRadius) * swell * swell, color});
+    const double share = std::clamp(along / (shape.belly_share * length), 0.0, 1.0);
+    const double swell = std::pow(std::sin(kPi * share), 1.4);
+    rings.push_back(
+        {p,
+         std::max(thinnest, kTendonRadius + (shape.belly_radius - kTendonRadius) * swell),
+         blend(color, kTendonColor, kTendonPaleness * std::max(0.0, 1 - 4 * swell))});
   };
   double along = 0;
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -145,16 +158,20 @@ void makeFigure(Subject& subject,
                 const PictureData& data,
                 double time,
                 const PictureOptions& options,
+                double thinnest,
                 Surface& surface) {
   if (options.bones) addBones(subject, surface);
   if (options.muscles) {
-    addMuscles(subject, data.muscle_values, time, options.color, surface);
+    addMuscles(subject,
+               findMuscleColors(subject.model().spec(), data.muscle_values, time, options.color),
+               thinnest,
+               surface);
   }
   if (options.forces) addForces(data.ground_reactions, time, surface);
   if (options.markers) addMarkers(subject, data.markers, time, surface);
 }
 
-void collectOutline(const Subject& subject,
+void collectOutline(Subject& subject,
                     const Eigen::Vector3d& follow,
                     std::vector<Eigen::Vector3f>& points) {
   const Eigen::Vector3f origin = follow.cast<float>();
@@ -162,6 +179,15 @@ void collectOutline(const Subject& subject,
     const Eigen::Matrix3f R = subject.pose(bone.body).R.cast<float>();
     const Eigen::Vector3f p = subject.pose(bone.body).p.cast<float>() - origin;
     for (const Eigen::Vector3f& vertex : bone.mesh.vertices) points.push_back(R * vertex + p);
+  }
+  const ModelSpec& model = subject.model().spec();
+  std::vector<PathVertex> path;
+  for (int m = 0; m < static_cast<int>(model.muscles.size()); ++m) {
+    subject.tracePath(MuscleIndex(m), path);
+    for (const PathVertex& vertex : path) points.push_back(vertex.p_G.cast<float>() - origin);
+  }
+  for (int m = 0; m < static_cast<int>(model.markers.size()); ++m) {
+    points.push_back(subject.findMarker(m).cast<float>() - origin);
   }
 }
 
