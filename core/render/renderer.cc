@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -167,7 +168,8 @@ struct Renderer::Impl {
     GLint samples = 1;
     glGetIntegerv(GL_MAX_SAMPLES, &samples);
     samples = std::min(samples, kSamples);
-    scale = samples < kSamples ? 2 : 1;
+    scale = samples < kSamples || getenv("E4_SSAA") ? 2 : 1;
+    if (getenv("E4_CULL")) glEnable(GL_CULL_FACE);
     drawn = makeTarget(scale * kTileWidth, scale * kTileHeight, scale == 1 ? samples : 0, true);
     if (scale == 1) resolved = makeTarget(kTileWidth, kTileHeight, 0, false);
     lit = linkProgram(kLitVertexShader, kLitFragmentShader);
@@ -235,19 +237,24 @@ struct Renderer::Impl {
   void copyTile(const Region& region, const Region& tile, Image& image) const {
     const std::size_t step = static_cast<std::size_t>(scale);
     const std::size_t row_bytes = static_cast<std::size_t>(tile.width) * step * 4;
-    const unsigned count = static_cast<unsigned>(scale * scale);
     for (int y = 0; y < tile.height; ++y) {
       const std::uint8_t* from =
           pixels.data() + static_cast<std::size_t>(tile.height - 1 - y) * step * row_bytes;
       std::uint8_t* to =
           image.bytes.data() + image.at(region.left + tile.left, region.top + tile.top + y);
-      for (int x = 0; x < tile.width; ++x, from += 4 * step, to += 3) {
-        for (std::size_t c = 0; c < 3; ++c) {
-          unsigned sum = 0;
-          for (std::size_t j = 0; j < step; ++j) {
-            for (std::size_t i = 0; i < step; ++i) sum += from[j * row_bytes + 4 * i + c];
+      if (scale == 1) {
+        for (int x = 0; x < tile.width; ++x, from += 4, to += 3) {
+          to[0] = from[0];
+          to[1] = from[1];
+          to[2] = from[2];
+        }
+      } else {
+        const std::uint8_t* below = from + row_bytes;
+        for (int x = 0; x < tile.width; ++x, from += 8, below += 8, to += 3) {
+          for (std::size_t c = 0; c < 3; ++c) {
+            to[c] = static_cast<std::uint8_t>(
+                (from[c] + from[c + 4] + below[c] + below[c + 4] + 2) / 4);
           }
-          to[c] = static_cast<std::uint8_t>((sum + count / 2) / count);
         }
       }
     }

@@ -115,7 +115,7 @@ void addSphere(const Eigen::Vector3d& center,
       const Eigen::Vector3d normal =
           std::cos(polar) * Eigen::Vector3d::UnitY() +
           std::sin(polar) *
-              calcRim(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX(), side, kSphereSides);
+              calcRim(Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitZ(), side, kSphereSides);
       addVertex(center + radius * normal, normal, material.color, material.gloss, surface);
     }
   }
