@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -20,7 +19,9 @@ namespace {
 
 constexpr int kTileWidth = 1280;  // [px]
 constexpr int kTileHeight = 720;
-constexpr int kSamples = 4;
+// Pixels drawn per pixel of the image, each way. Multisampling of OpenGL would smooth edges alike,
+// but in llvmpipe it costs a third more here, where triangles are about as small as pixels.
+constexpr int kScale = 2;
 constexpr Rgb kSkyColor{250, 251, 252};
 constexpr Rgb kBottomColor{228, 232, 238};
 
@@ -60,8 +61,8 @@ GLuint linkProgram(const char* vertex_source, const char* fragment_source) {
   return program;
 }
 
-// A colour buffer, and depth if asked, that pictures are drawn into.
-GLuint makeTarget(int width, int height, int samples, bool depth) {
+// Colour and depth of one tile, as what is drawn into.
+void makeTarget(int width, int height) {
   GLuint target = 0;
   glGenFramebuffers(1, &target);
   glBindFramebuffer(GL_FRAMEBUFFER, target);
@@ -69,15 +70,14 @@ GLuint makeTarget(int width, int height, int samples, bool depth) {
     GLuint buffer = 0;
     glGenRenderbuffers(1, &buffer);
     glBindRenderbuffer(GL_RENDERBUFFER, buffer);
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, width, height);
+    glRenderbufferStorage(GL_RENDERBUFFER, format, width, height);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer);
   };
   attach(GL_RGBA8, GL_COLOR_ATTACHMENT0);
-  if (depth) attach(GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT);
+  attach(GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT);
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     fail("no buffer to draw into");
   }
-  return target;
 }
 
 // A surface on the other side of the graphics library.
@@ -151,9 +151,7 @@ Surface makeBackground(double top_share, double bottom_share) {
 struct Renderer::Impl {
   OSMesaContext context = nullptr;
   std::array<std::uint8_t, 16> default_buffer{};  // of one row of four pixels; never looked at
-  int scale = 1;                                  // pixels drawn per pixel of the image, each way
   GLuint lit = 0, flat = 0;
-  GLuint drawn = 0, resolved = 0;
   Buffers background, floor, figure;
   std::vector<std::uint8_t> pixels;  // RGBA, rows from the bottom
 
@@ -165,25 +163,21 @@ struct Renderer::Impl {
 
   void create() {
     makeCurrent();
-    GLint samples = 1;
-    glGetIntegerv(GL_MAX_SAMPLES, &samples);
-    samples = std::min(samples, kSamples);
-    scale = samples < kSamples || getenv("E4_SSAA") ? 2 : 1;
-    if (getenv("E4_CULL")) glEnable(GL_CULL_FACE);
-    drawn = makeTarget(scale * kTileWidth, scale * kTileHeight, scale == 1 ? samples : 0, true);
-    if (scale == 1) resolved = makeTarget(kTileWidth, kTileHeight, 0, false);
+    makeTarget(kScale * kTileWidth, kScale * kTileHeight);
     lit = linkProgram(kLitVertexShader, kLitFragmentShader);
     flat = linkProgram(kFlatVertexShader, kFlatFragmentShader);
     for (Buffers* buffers : {&background, &floor, &figure}) buffers->create();
     for (const GLuint attribute : {0U, 1U, 2U}) glEnableVertexAttribArray(attribute);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     glDepthFunc(GL_LEQUAL);
+    glCullFace(GL_BACK);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
   }
 
   void drawFlat(const Camera& camera, const Region& region, const Region& tile) {
     glUseProgram(flat);
     glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
     background.upload(makeBackground(static_cast<double>(tile.top) / region.height,
                                      static_cast<double>(tile.top + tile.height) / region.height));
     setMatrix(flat, "clip", Eigen::Matrix4d::Identity());
@@ -198,6 +192,7 @@ struct Renderer::Impl {
   void drawLit(const Camera& camera, const Region& tile) {
     glUseProgram(lit);
     glEnable(GL_DEPTH_TEST);
+    glEnable(GL_CULL_FACE);
     setMatrix(lit, "clip", camera.calcClipMatrix(tile.left, tile.top, tile.width, tile.height));
     setVector(lit, "eye", camera.eye);
     setVector(lit, "up_C", camera.R_CG.col(1));
@@ -207,54 +202,30 @@ struct Renderer::Impl {
   }
 
   void drawTile(const Camera& camera, const Region& region, const Region& tile) {
-    glBindFramebuffer(GL_FRAMEBUFFER, drawn);
-    glViewport(0, 0, scale * tile.width, scale * tile.height);
+    const int width = kScale * tile.width, height = kScale * tile.height;
+    glViewport(0, 0, width, height);
     glClear(GL_DEPTH_BUFFER_BIT);
     drawFlat(camera, region, tile);
     drawLit(camera, tile);
-    if (scale == 1) {
-      glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved);
-      glBlitFramebuffer(0,
-                        0,
-                        tile.width,
-                        tile.height,
-                        0,
-                        0,
-                        tile.width,
-                        tile.height,
-                        GL_COLOR_BUFFER_BIT,
-                        GL_NEAREST);
-      glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved);
-    }
-    pixels.resize(static_cast<std::size_t>(scale * tile.width * scale * tile.height) * 4);
-    glReadPixels(
-        0, 0, scale * tile.width, scale * tile.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+    pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
     const GLenum error = glGetError();
     if (error != GL_NO_ERROR) fail("OpenGL error " + std::to_string(error));
   }
 
-  // Means of scale x scale pixels, rows from the top.
+  // Means of 2 x 2 pixels, rows from the top.
   void copyTile(const Region& region, const Region& tile, Image& image) const {
-    const std::size_t step = static_cast<std::size_t>(scale);
-    const std::size_t row_bytes = static_cast<std::size_t>(tile.width) * step * 4;
+    static_assert(kScale == 2, "the mean below is of four");
+    const std::size_t row_bytes = static_cast<std::size_t>(tile.width) * kScale * 4;
     for (int y = 0; y < tile.height; ++y) {
-      const std::uint8_t* from =
-          pixels.data() + static_cast<std::size_t>(tile.height - 1 - y) * step * row_bytes;
+      const auto row = static_cast<std::size_t>(tile.height - 1 - y) * kScale;
+      const std::uint8_t* a = pixels.data() + row * row_bytes;
+      const std::uint8_t* b = a + row_bytes;
       std::uint8_t* to =
           image.bytes.data() + image.at(region.left + tile.left, region.top + tile.top + y);
-      if (scale == 1) {
-        for (int x = 0; x < tile.width; ++x, from += 4, to += 3) {
-          to[0] = from[0];
-          to[1] = from[1];
-          to[2] = from[2];
-        }
-      } else {
-        const std::uint8_t* below = from + row_bytes;
-        for (int x = 0; x < tile.width; ++x, from += 8, below += 8, to += 3) {
-          for (std::size_t c = 0; c < 3; ++c) {
-            to[c] = static_cast<std::uint8_t>(
-                (from[c] + from[c + 4] + below[c] + below[c + 4] + 2) / 4);
-          }
+      for (int x = 0; x < tile.width; ++x, a += 8, b += 8, to += 3) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          to[c] = static_cast<std::uint8_t>((a[c] + a[c + 4] + b[c] + b[c + 4] + 2) / 4);
         }
       }
     }

@@ -16,9 +16,9 @@ struct Region {
   int height = 0;
 };
 
-/// Draws triangles into images with OpenGL in memory (OSMesa): no display, no GPU. Edges are
-/// smoothed by four samples per pixel. Its buffers have one size whatever the image has, since
-/// large images are drawn in tiles: about 40 MB. One thread at a time.
+/// Draws triangles into images with OpenGL in memory (OSMesa): no display, no GPU. Edges and
+/// shading are smoothed by four samples per pixel. Its buffers have one size whatever the image
+/// has, since large images are drawn in tiles: about 45 MB. One thread at a time.
 class Renderer {
  public:
   Renderer();  ///< @throws Error kRender if the graphics library offers no context
@@ -26,8 +26,9 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Draws background, floor (unlit, blended, in the order given) and figure (lit, hidden surfaces
-  /// removed) as the camera sees them, the region's upper left corner being the camera's (0, 0).
+  /// Draws background, floor (unlit, blended, in the order given) and figure (lit, hidden and
+  /// back surfaces left out) as the camera sees them, the region's upper left corner being the
+  /// camera's (0, 0).
   /// @throws Error kRender if the graphics library reports an error
   void draw(const Surface& floor,
             const Surface& figure,

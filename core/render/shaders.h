@@ -3,7 +3,6 @@
 namespace gaitmill {
 
 // The two programs of the renderer, GLSL 1.20. Vertex attributes: 0 position, 1 normal, 2 colour.
-// Centroid: a pixel whose middle lies outside the triangle must not extrapolate the normal.
 
 inline constexpr const char* kLitVertexShader = R"(#version 120
 attribute vec3 position;
@@ -12,8 +11,8 @@ attribute vec4 color;
 uniform mat4 clip;
 uniform mat3 camera;
 uniform vec3 eye;
-centroid varying vec3 normal_C;
-centroid varying vec3 toward_eye_C;
+varying vec3 normal_C;
+varying vec3 toward_eye_C;
 varying vec4 albedo;
 void main() {
   gl_Position = clip * vec4(position, 1.0);
@@ -27,8 +26,8 @@ void main() {
 // little darkening towards the silhouette, which parts neighbouring shapes as ink does.
 inline constexpr const char* kLitFragmentShader = R"(#version 120
 uniform vec3 up_C;
-centroid varying vec3 normal_C;
-centroid varying vec3 toward_eye_C;
+varying vec3 normal_C;
+varying vec3 toward_eye_C;
 varying vec4 albedo;
 const vec3 key = vec3(-0.358, 0.698, 0.620);
 const vec3 fill = vec3(0.793, 0.099, 0.601);
