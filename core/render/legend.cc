@@ -23,6 +23,8 @@ constexpr double kBarHeight = 1.1;
 constexpr double kArrowRoom = 9;
 constexpr double kDotRadius = 0.55;
 
+constexpr double kBodyShare = 0.3;  // of the picture, each way; a legend that leaves less goes
+
 // One part of a legend: its size in cap heights, and how it is drawn at its upper left corner.
 struct Block {
   enum class Kind { kInstant, kScale, kForces, kMarkers };
@@ -55,7 +57,9 @@ std::vector<Block> makeBlocks(const LegendContent& content) {
     blocks.push_back({Block::Kind::kScale, width, 2 * kLine + kBarHeight + 0.4});
   }
   if (content.forces) {
-    blocks.push_back({Block::Kind::kForces, measureText("Ground reaction", 1), 2 * kLine});
+    const double sample = kArrowRoom + 1 + measureText("1000 N", 1);
+    const double width = std::max(sample, measureText("Ground reaction", 1));
+    blocks.push_back({Block::Kind::kForces, width, 2 * kLine});
   }
   const std::vector<std::string> markers = listMarkers(content);
   if (!markers.empty()) {
@@ -209,6 +213,12 @@ Layout makeLayout(int width, int height, const LegendContent& content, bool stri
     layout.legend.top = layout.legend.bottom - flowBlocks(blocks, room / cap).height * cap;
     layout.body.bottom = layout.legend.top - 1.5 * cap;
   }
+  const double width_left = layout.body.right - layout.body.left;
+  const double height_left = layout.body.bottom - layout.body.top;
+  if (width_left < kBodyShare * width || height_left < kBodyShare * height) {
+    layout.legend = {};
+    layout.body = {margin, margin, width - margin, height - margin};
+  }
   return layout;
 }
 
@@ -219,6 +229,7 @@ void drawLegend(const LegendContent& content,
   const std::vector<Block> blocks = makeBlocks(content);
   const double cap = layout.cap_height;
   const Frame& frame = layout.legend;
+  if (frame.right <= frame.left) return;
   LegendPainter painter(content, cap, pixels_per_newton, image);
   if (!layout.beside) {
     const Flow flow = flowBlocks(blocks, (frame.right - frame.left) / cap);

@@ -22,7 +22,7 @@ struct LegendContent {
 struct Layout {
   double cap_height = 10;  ///< of the legend's text [px]
   bool beside = true;
-  Frame legend;  ///< [px]
+  Frame legend;  ///< [px]; without extent where the picture is too small for one
   Frame body;    ///< what the body may fill [px]
 };
 

@@ -173,7 +173,9 @@ Picture Painter::paintStrip(
   const double cap = layout.cap_height;
   const double margin = 0.03 * std::min(options.width, options.height);
   const double label_base = layout.body.bottom - 0.4 * cap;
-  const Frame frame{margin, layout.body.top, options.width - margin, label_base - 2.5 * cap};
+  const bool labelled = options.legend && label_base > 0.5 * image.height;
+  const double bottom = labelled ? label_base - 2.5 * cap : layout.body.bottom;
+  const Frame frame{margin, layout.body.top, options.width - margin, bottom};
   const Framing framing = fitFraming(s.outline, options.view, frame);
   const Camera camera = makeCamera(options.view, framing, frame, Eigen::Vector3d::Zero());
   const double half_width = 0.5 * options.width * framing.distance / findFocalLength(frame);
@@ -186,7 +188,7 @@ Picture Painter::paintStrip(
     const Region region{pose * options.width, 0, options.width, options.height};
     s.drawPose(data, time, options, framing, frame, floor_style, region, image);
   }
-  for (int pose = 0; pose < count; ++pose) {
+  for (int pose = 0; labelled && pose < count; ++pose) {
     const double share = count > 1 ? static_cast<double>(pose) / (count - 1) : 0;
     const double percent = findPercent(data, start + share * (end - start)).value_or(100 * share);
     drawLabel(formatFixed(percent, 0) + " %",

@@ -67,7 +67,10 @@ Eigen::Vector3d calcTangent(const std::vector<TubeRing>& rings, std::size_t i) {
   const Eigen::Vector3d in = rings[i].center - rings[before].center;
   const Eigen::Vector3d out = rings[after].center - rings[i].center;
   const Eigen::Vector3d sum = in.normalized() + out.normalized();
-  return sum.norm() > 1e-6 ? sum.normalized() : out.normalized();
+  for (const Eigen::Vector3d& candidate : {sum, out, in}) {
+    if (candidate.norm() > 1e-9) return candidate.normalized();
+  }
+  return Eigen::Vector3d::UnitY();  // the same point thrice
 }
 
 double calcSlope(const std::vector<TubeRing>& rings, std::size_t i) {
