@@ -12,7 +12,7 @@ namespace {
 
 using Vector3d = Eigen::Vector3d;
 
-const Vector3d kArmCell(0.0050, 0.0090, 0.0050);
+const Vector3d kArmCell(0.0054, 0.0110, 0.0054);
 
 }  // namespace
 

@@ -11,7 +11,7 @@ namespace {
 using Vector3d = Eigen::Vector3d;
 
 // Shafts are smooth along their length: cells are longer there.
-const Vector3d kLongBoneCell(0.0058, 0.0110, 0.0058);
+const Vector3d kLongBoneCell(0.0062, 0.0130, 0.0062);
 
 }  // namespace
 
@@ -95,7 +95,7 @@ Mesh makeFibula() {
                     {{-0.008, -0.405, 0.033}, 0.0095},
                     {{-0.009, -0.424, 0.033}, 0.0060}},
                    0.0);
-  return fibula.makeMesh({0.0050, 0.0120, 0.0050});
+  return fibula.makeMesh({0.0056, 0.0140, 0.0056});
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ Mesh makeHipBone() {
   addIschium(hip);
   // Acetabulum: room for the femur's head.
   hip.carveEllipsoid({-0.0563, -0.0785, 0.0840}, {0.0262, 0.0262, 0.0270}, 0.004);
-  return hip.makeMesh({0.0080, 0.0085, 0.0054});
+  return hip.makeMesh({0.0086, 0.0092, 0.0056});
 }
 
 Mesh makeSacrum() {
@@ -111,7 +111,7 @@ Mesh makeSacrum() {
           {-0.112 - 0.0135 * k, y, side * (0.019 - 0.0025 * k)}, {0.012, 0.0042, 0.0042}, 0.003);
     }
   }
-  return sacrum.makeMesh(Vector3d::Constant(0.0076));
+  return sacrum.makeMesh(Vector3d::Constant(0.0074));
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ Mesh makeCranium() {
   skull.addStroke({{{0.084, 0.563, 0}, 0.0060}, {{0.093, 0.545, 0}, 0.0050}}, 0.008);
   skull.carveEllipsoid({0.092, 0.5265, 0}, {0.0170, 0.0130, 0.0090}, 0.005);
   addTeeth(skull, 0.079, 0.4970, 0.0062);
-  return skull.makeMesh(Vector3d::Constant(0.0073));
+  return skull.makeMesh(Vector3d::Constant(0.0080));
 }
 
 Mesh makeJaw() {
@@ -74,7 +74,7 @@ Mesh makeJaw() {
                   {{{0.009, 0.534, side * 0.051}, 0.0065}, {{0.034, 0.527, side * 0.048}, 0.0045}}},
                  0.008);
   }
-  return jaw.makeMesh(Vector3d::Constant(0.0062));
+  return jaw.makeMesh(Vector3d::Constant(0.0070));
 }
 
 }  // namespace

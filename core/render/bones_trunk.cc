@@ -166,7 +166,7 @@ Mesh makeRib(int number) {
   const Vector3d side(rib.side_x, root.y() - rib.side_drop, rib.side_z);
   const Vector3d back = 0.5 * (angle + side) + Vector3d(-0.024, 0.006, 0.020);
   const Vector3d fore = 0.5 * (side + rib.front) + Vector3d(0.022, -0.006, 0.020);
-  TubeForm bone = {6, 3, 1, {Vector3d::UnitX(), 0.5}};
+  TubeForm bone = {6, 2, 1, {Vector3d::UnitX(), 0.5}};
   bone.thin_from_axis = true;
   Mesh mesh = makeTube({{root, 0.0052},
                         {angle, 0.0068},
@@ -194,7 +194,7 @@ Mesh makeSternum() {
       0.006,
       flat);
   sternum.addStroke({{{0.090, 0.230, 0}, 0.0090}, {{0.094, 0.206, 0}, 0.0050}}, 0.006, flat);
-  return sternum.makeMesh(Vector3d::Constant(0.0075));
+  return sternum.makeMesh(Vector3d::Constant(0.0085));
 }
 
 }  // namespace

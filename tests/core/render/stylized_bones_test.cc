@@ -65,7 +65,7 @@ TEST(StylizedBones, AreNotTooManyTriangles) {
   for (const BodyMesh& bone : getBones()) {
     triangles += bone.mesh.triangles.size();
   }
-  EXPECT_LT(triangles, 75000u);
+  EXPECT_LT(triangles, 65000u);
 }
 
 /// Outermost places of a body's bones in its frame [m].
