@@ -191,8 +191,7 @@ void checkIk(const Job& job, JobQuality& quality) {
 }
 
 void checkId(const Job& job, JobQuality& quality) {
-  // Where residuals are reduced, that stage is judged: the rest has nowhere else to go.
-  if (!job.id || job.rra || job.cmc || job.id->residual_wrench.columnCount() == 0) {
+  if (!job.id || job.id->residual_wrench.columnCount() == 0) {
     return;
   }
   const TimeSeries& wrench = job.id->residual_wrench;

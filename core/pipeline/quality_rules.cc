@@ -191,7 +191,7 @@ const std::vector<QualityRule>& qualityRules() {
        "Too few markers were seen in these frames, or markers are mislabelled.",
        "Look at the frames that are named in the warnings, or leave them out with "
        "ik.time_range_s."},
-      // inverse dynamics, where nothing reduces the residuals
+      // inverse dynamics
       {"id",
        "id_residual_force_peak",
        "N",
@@ -201,11 +201,10 @@ const std::vector<QualityRule>& qualityRules() {
        "reaction",
        kNoFailure,
        "inverse dynamics leaves a force without an origin, of up to",
-       "Without residual reduction the measured motion, the model's masses and the ground reaction "
-       "contradict each other to this extent. Moments at ankle and knee suffer little, moments at "
-       "hip and trunk more.",
-       "Run residual reduction (stage rra), or check that all ground contacts were recorded and "
-       "that the motion is filtered (id.lowpass_cutoff_hz)."},
+       "The motion, the model's masses and the ground reaction contradict each other to this "
+       "extent. Moments at ankle and knee suffer little from it, moments at hip and trunk more.",
+       "Run residual reduction (stage rra) if it was left out. Check that all ground contacts were "
+       "recorded and that the motion is filtered (id.lowpass_cutoff_hz)."},
       {"id",
        "id_residual_moment_peak",
        "N.m",
@@ -215,7 +214,8 @@ const std::vector<QualityRule>& qualityRules() {
        kNoFailure,
        "inverse dynamics leaves a moment without an origin, of up to",
        kResidualMomentCause,
-       "Run residual reduction (stage rra), and check the registration of the force plates."},
+       "Run residual reduction (stage rra) if it was left out, and check the registration of the "
+       "force plates."},
       // residual reduction
       {"rra",
        "rra_tracking_rotation_rms",

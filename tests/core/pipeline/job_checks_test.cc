@@ -100,6 +100,43 @@ TEST_F(JobChecksTest, TheWorstStaticPoseCounts) {
   EXPECT_EQ(get("static_pose_peak").worst, "RPSI");
 }
 
+TEST_F(JobChecksTest, ResidualsOfInverseDynamicsWarnButNeverFail) {
+  job_.id.emplace();
+  checkId(job_, quality_);
+  EXPECT_TRUE(quality_.checks.empty()) << "nothing was measured about the whole body";
+  job_.id->residual_wrench = makeTimeSeries("residual_wrench",
+                                            {"residual_force_x",
+                                             "residual_force_y",
+                                             "residual_force_z",
+                                             "residual_moment_x",
+                                             "residual_moment_y",
+                                             "residual_moment_z"},
+                                            {0, 1});
+  job_.id->residual_wrench.values << 1, -300, 2, 10, 20, -30, 0, 20, 1, 5, 6, 7;
+  checkId(job_, quality_);
+  EXPECT_EQ(get("id_residual_force_peak").value, 300);
+  EXPECT_EQ(get("id_residual_force_peak").worst, "residual_force_y");
+  EXPECT_EQ(get("id_residual_force_peak").judge(), Verdict::kWarn);
+  EXPECT_EQ(get("id_residual_moment_peak").value, 30);
+  EXPECT_EQ(get("id_residual_moment_peak").judge(), Verdict::kPass);
+}
+
+TEST_F(JobChecksTest, WorkIsHeldAgainstAllWorkWhateverItsSign) {
+  job_.cmc.emplace();
+  quality_.cmc_tracking = TrackingError{1, 1, 1, 1, 1, "", ""};
+  job_.analysis.emplace();
+  WorkBalance& work = job_.analysis->balance;
+  work.muscles = 60;
+  work.actuators = -10;
+  work.residuals = -8;
+  work.ground = -22;
+  work.energy_change = 21;  // 1 J more than all of them together
+  checkCmc(job_, quality_);
+  EXPECT_NEAR(get("residual_work").value, 8, tol(1e-12));
+  EXPECT_EQ(get("residual_work").judge(), Verdict::kWarn);
+  EXPECT_NEAR(get("work_imbalance").value, 1, tol(1e-12));
+}
+
 class RraChecksTest : public JobChecksTest {
  protected:
   RraChecksTest() {
