@@ -10,6 +10,7 @@
 
 #include "core/analysis/acceptance.h"
 #include "core/analysis/emg_channels.h"
+#include "core/analysis/emg_comparison.h"
 #include "core/analysis/emg_envelope.h"
 #include "core/analysis/foot_contacts.h"
 #include "core/analysis/joint_reserves.h"
@@ -144,6 +145,7 @@ struct JobQuality {
   std::vector<ActuatorStatistics> so_reserves;
   std::vector<JointReserve> so_joint_reserves;
   std::vector<Saturation> so_saturations;
+  std::vector<EmgComparison> emg;  ///< of the channels whose muscles are known
   /// Largest vertical ground reaction of all feet together [N]; NaN without forces.
   double peak_reaction = std::numeric_limits<double>::quiet_NaN();
   /// Mean height of the whole body's mass centre over the CMC run [m].

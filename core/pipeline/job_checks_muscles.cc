@@ -105,6 +105,23 @@ void checkWork(const Job& job, JobQuality& quality) {
   }
 }
 
+/// The mean over the channels; the one that agrees least is named.
+void checkEmg(JobQuality& quality) {
+  double sum = 0;
+  int count = 0;
+  const EmgComparison* worst = nullptr;
+  for (const EmgComparison& channel : quality.emg) {
+    if (std::isfinite(channel.overlap)) {
+      sum += 1 - channel.overlap;
+      ++count;
+      worst = worst == nullptr || channel.overlap < worst->overlap ? &channel : worst;
+    }
+  }
+  if (count > 0) {
+    add("emg_timing", 100 * sum / count, worst->channel, quality);
+  }
+}
+
 }  // namespace
 
 void checkSo(const Job& job, JobQuality& quality) {
@@ -140,6 +157,7 @@ void checkCmc(const Job& job, JobQuality& quality) {
   checkSaturation("saturation", quality.saturations, quality);
   checkFibers(quality);
   checkWork(job, quality);
+  checkEmg(quality);
   checkFeasible("cmc", job.cmc->infeasible_windows.size(), job.cmc->counters.windows, quality);
   add("cmc_finished", job.cmc->stop == CmcStop::kDiverged ? 1 : 0, "", quality);
 }

@@ -163,23 +163,23 @@ Json summarizeComparison(const EmgComparison& comparison) {
           {"correlation_without_lag", toJsonNumber(comparison.correlation_at_zero)}};
 }
 
-Json summarizeComparisons(const Job& job) {
-  Json list = Json::array();
+}  // namespace
+
+std::vector<EmgComparison> compareEmgs(const Job& job) {
+  std::vector<EmgComparison> comparisons;
   const std::optional<NamedActivations> activations = findActivations(job);
   const std::optional<GaitCycle> cycle = findGaitCycle(job);
-  if (!activations || !cycle) {
-    return list;
+  if (!job.emg || !activations || !cycle) {
+    return comparisons;
   }
   for (const EmgChannel& channel : job.emg->channels) {
     if (!channel.muscles.empty()) {
-      list.push_back(summarizeComparison(
-          compareEmg(job.emg->processed.envelopes, *activations->table, channel, *cycle)));
+      comparisons.push_back(
+          compareEmg(job.emg->processed.envelopes, *activations->table, channel, *cycle));
     }
   }
-  return list;
+  return comparisons;
 }
-
-}  // namespace
 
 void openEmg(Job& job) {
   if (!job.input->emg || job.settings.last < Stage::kIk) {
@@ -252,12 +252,16 @@ void addEmg(Stage stage, const Job& job, StageOutcome& outcome) {
 
 nlohmann::ordered_json summarizeEmg(const Job& job) {
   const std::optional<NamedActivations> activations = findActivations(job);
+  Json comparisons = Json::array();
+  for (const EmgComparison& comparison : compareEmgs(job)) {
+    comparisons.push_back(summarizeComparison(comparison));
+  }
   return {{"channels", summarizeChannels(*job.emg)},
           {"processing", summarizeProcessing(job)},
           {"electromechanical_delay_s", job.settings.emg.electromechanical_delay},
           {"activations_of", activations ? Json(activations->stage) : Json(nullptr)},
           {"cycle_of_foot", "right"},
-          {"comparison", summarizeComparisons(job)}};
+          {"comparison", comparisons}};
 }
 
 }  // namespace gaitmill

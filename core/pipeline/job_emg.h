@@ -1,7 +1,10 @@
 #pragma once
 
+#include <vector>
+
 #include <nlohmann/json.hpp>
 
+#include "core/analysis/emg_comparison.h"
 #include "core/pipeline/job.h"
 
 namespace gaitmill {
@@ -19,6 +22,10 @@ void warnOfEmg(Stage stage, Job& job);
 /// every channel, rows at least 1 ms apart. Over time the part within the motion; over the cycle
 /// the part within the activations, so that both are realigned at the same percent.
 void addEmg(Stage stage, const Job& job, StageOutcome& outcome);
+
+/// Every channel with known muscles against the activations of CMC, else of SO, over the gait
+/// cycle; empty without one of them.
+std::vector<EmgComparison> compareEmgs(const Job& job);
 
 /// "emg" of summary.json: channels, processing with every parameter as it was used, delay, and the
 /// comparison with the activations of CMC, else of SO. Needs job.emg.

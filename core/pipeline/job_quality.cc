@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 #include "core/model/model.h"
 #include "core/pipeline/job.h"
+#include "core/pipeline/job_emg.h"
 
 namespace gaitmill {
 
@@ -142,6 +143,7 @@ JobQuality calcQuality(const Job& job) {
   if (job.cmc) {
     addMuscleControl(job, quality);
   }
+  quality.emg = compareEmgs(job);
   addChecks(job, quality);
   return quality;
 }

@@ -121,6 +121,20 @@ TEST_F(JobChecksTest, ResidualsOfInverseDynamicsWarnButNeverFail) {
   EXPECT_EQ(get("id_residual_moment_peak").judge(), Verdict::kPass);
 }
 
+TEST_F(JobChecksTest, TimesOfActivityAreJudgedOnTheMeanOfTheChannels) {
+  job_.cmc.emplace();
+  quality_.cmc_tracking = TrackingError{1, 1, 1, 1, 1, "", ""};
+  quality_.emg.resize(3);
+  quality_.emg[0].overlap = 0.9;
+  quality_.emg[1].channel = "GMAX";
+  quality_.emg[1].overlap = 0.0;
+  quality_.emg[2].overlap = std::numeric_limits<double>::quiet_NaN();
+  checkCmc(job_, quality_);
+  EXPECT_NEAR(get("emg_timing").value, 55, tol(1e-12));
+  EXPECT_EQ(get("emg_timing").worst, "GMAX");
+  EXPECT_EQ(get("emg_timing").judge(), Verdict::kWarn);
+}
+
 TEST_F(JobChecksTest, WorkIsHeldAgainstAllWorkWhateverItsSign) {
   job_.cmc.emplace();
   quality_.cmc_tracking = TrackingError{1, 1, 1, 1, 1, "", ""};
