@@ -15,9 +15,13 @@ namespace {
 // there.
 constexpr double kChartWidth = 800;  // [px]
 
-// One panel per muscle: they say what the muscles do, not how far to trust it.
-constexpr const char* kLeftOut[] = {
-    "muscle_forces", "fiber_lengths", "fiber_velocities", "muscle_powers"};
+// These say what the body does, not how far to trust it, and most have a panel per muscle.
+constexpr const char* kLeftOut[] = {"muscle_forces",
+                                    "fiber_lengths",
+                                    "fiber_velocities",
+                                    "muscle_powers",
+                                    "muscle_work",
+                                    "joint_powers"};
 
 bool isLeftOut(const Figure& figure) {
   return std::find(std::begin(kLeftOut), std::end(kLeftOut), figure.name) != std::end(kLeftOut);
