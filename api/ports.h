@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "api/dto/catalog.h"
+#include "api/dto/image.h"
 #include "api/dto/job.h"
 #include "api/dto/page.h"
 #include "api/dto/result.h"
@@ -14,13 +15,14 @@
 #include "api/http.h"
 #include "api/identity.h"
 #include "core/data/time_series.h"
+#include "core/figure/figure.h"
 
 namespace gaitmill::api {
 
 /// All that a route may ask for. Implemented by the service on top of its storage, and by recording
 /// stubs in tests. Implementations are called from several threads at once and answer quickly: no
-/// solver runs behind a port. Ids of another tenant do not exist: every look-up throws the same
-/// Error k…NotFound for them as for ids that nobody has.
+/// solver runs behind a port, and only what draws takes its time. Ids of another tenant do not
+/// exist: every look-up throws the same Error k…NotFound for them as for ids that nobody has.
 
 class TrialPort {
  public:
@@ -113,6 +115,93 @@ class ResultPort {
   virtual FileContent makeArchive(const Identity& who, const std::string& job_id) = 0;
 };
 
+/// What is drawn and said of results. A tag is equal as long as all that is made of the same
+/// results is equal: over the job's provenance and the code that draws, so that a client's copy is
+/// known to be good before anything is made. Letters, digits and '.', as an ETag may have them.
+
+/// Figures of a job, from the tables it has so far.
+class FigurePort {
+ public:
+  virtual ~FigurePort() = default;
+  /// @throws Error kJobNotFound
+  virtual std::string findTag(const Identity& who, const std::string& job_id) = 0;
+  virtual std::vector<FigureInfo> list(const Identity& who, const std::string& job_id) = 0;
+  /// @throws Error kJobNotFound; kResultNotReady while the job may still get it; kFigureNotFound
+  ///         naming the nearest
+  virtual Figure find(const Identity& who, const std::string& job_id, const std::string& name) = 0;
+};
+
+/// An image file in memory, shared with the cache that keeps it.
+struct ImageFile {
+  std::string content_type;
+  std::shared_ptr<const ByteSource> bytes;
+};
+
+class ImagePort {
+ public:
+  virtual ~ImagePort() = default;
+  /// @throws Error kJobNotFound
+  virtual std::string findTag(const Identity& who,
+                              const std::string& job_id,
+                              const ImageRequest& request) = 0;
+  /// Draws, or takes from the cache. Waits for its turn: one image is drawn at a time.
+  /// @throws Error kJobNotFound; kResultNotReady while there is no motion; kRequestField naming
+  ///         what there is; kImageSize, kQuotaExceeded; kRequestBusy if too many wait; kRender
+  virtual ImageFile paint(const Identity& who,
+                          const std::string& job_id,
+                          const ImageRequest& request) = 0;
+};
+
+class ReportPort {
+ public:
+  virtual ~ReportPort() = default;
+  /// @throws Error kJobNotFound
+  virtual std::string findTag(const Identity& who, const std::string& job_id) = 0;
+  /// The verdict with everything that it rests on, a JSON object.
+  /// @throws Error kJobNotFound; kResultNotReady unless the job has succeeded
+  virtual std::string findQuality(const Identity& who, const std::string& job_id) = 0;
+  /// One self-contained HTML file. @throws as findQuality, and as ImagePort::paint
+  virtual std::string render(const Identity& who, const std::string& job_id) = 0;
+};
+
+/// Differences between jobs.
+struct ComparisonView {
+  std::string tables_json;  ///< JSON array
+  std::vector<FigureInfo> figures;
+};
+
+/// Jobs held against the first of them. At least two ids, each once.
+class ComparePort {
+ public:
+  virtual ~ComparePort() = default;
+  /// @throws Error kJobNotFound
+  virtual std::string findTag(const Identity& who, const std::vector<std::string>& job_ids) = 0;
+  /// @throws Error kJobNotFound; kResultNotReady unless all have succeeded
+  virtual ComparisonView compare(const Identity& who, const std::vector<std::string>& job_ids) = 0;
+  /// @throws as compare; kFigureNotFound
+  virtual Figure find(const Identity& who,
+                      const std::vector<std::string>& job_ids,
+                      const std::string& name) = 0;
+};
+
+/// Validation figures of a model.
+class ValidationPort {
+ public:
+  virtual ~ValidationPort() = default;
+  /// @param seed  of random draws
+  /// @throws Error kModelNotFound
+  virtual std::string findTag(const Identity& who,
+                              const std::string& model_id,
+                              std::uint64_t seed) = 0;
+  /// @throws Error kModelNotFound; of the reader that refuses the model; kRequestBusy; kRender
+  virtual std::vector<FigureInfo> list(const Identity& who, const std::string& model_id) = 0;
+  /// @throws as list; kFigureNotFound
+  virtual Figure find(const Identity& who,
+                      const std::string& model_id,
+                      const std::string& name,
+                      std::uint64_t seed) = 0;
+};
+
 /// Models, or marker sets: one port for each.
 class CatalogPort {
  public:
@@ -183,6 +272,11 @@ struct Ports {
   JobPort& jobs;
   StudyPort& studies;
   ResultPort& results;
+  FigurePort& figures;
+  ImagePort& images;
+  ReportPort& reports;
+  ComparePort& comparisons;
+  ValidationPort& validations;
   CatalogPort& models;
   CatalogPort& marker_sets;
   SettingsPort& settings;

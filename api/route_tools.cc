@@ -151,6 +151,17 @@ HttpReply replyTagged(std::string json) {
   return reply;
 }
 
+// The transport turns a reply into 304 by its tag; with an empty body nothing was made in vain.
+HttpReply replyUnlessKnown(const HttpRequest& request,
+                           const std::string& tag,
+                           const std::function<HttpReply()>& make) {
+  const std::string& known = request.header("if-none-match");
+  const std::string compressed = tag.substr(0, tag.size() - 1) + "-gzip\"";
+  HttpReply reply = known == tag || known == compressed ? HttpReply{} : make();
+  reply.headers["ETag"] = tag;
+  return reply;
+}
+
 HttpReply replyNothing() {
   HttpReply reply;
   reply.status = 204;

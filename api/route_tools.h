@@ -43,6 +43,12 @@ HttpReply replyJson(int status, std::string json);
 HttpReply replyCreated(int status, const std::string& location, std::string json);
 /// 200 with a strong ETag made from the content.
 HttpReply replyTagged(std::string json);
+/// What a client already has, as the only tag of its If-None-Match, is not made again: 304.
+/// @param tag   with its quotes
+/// @param make  the reply without its ETag
+HttpReply replyUnlessKnown(const HttpRequest& request,
+                           const std::string& tag,
+                           const std::function<HttpReply()>& make);
 /// 204
 HttpReply replyNothing();
 /// 200 with the bytes as a download; the ETag is their hash.

@@ -7,6 +7,8 @@ Routes makeRoutes(const Ports& ports, const std::string& version) {
   for (const Routes& group : {makeTrialRoutes(ports),
                               makeJobRoutes(ports),
                               makeResultRoutes(ports),
+                              makeFigureRoutes(ports),
+                              makeImageRoutes(ports),
                               makeStudyRoutes(ports),
                               makeCatalogRoutes(ports),
                               makeSettingsRoutes(ports),

@@ -20,6 +20,8 @@ Routes makeServiceRoutes(const Ports& ports, const std::string& version);
 Routes makeTrialRoutes(const Ports& ports);
 Routes makeJobRoutes(const Ports& ports);
 Routes makeResultRoutes(const Ports& ports);
+Routes makeFigureRoutes(const Ports& ports);
+Routes makeImageRoutes(const Ports& ports);
 Routes makeStudyRoutes(const Ports& ports);
 Routes makeCatalogRoutes(const Ports& ports);
 Routes makeSettingsRoutes(const Ports& ports);

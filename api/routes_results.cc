@@ -52,16 +52,14 @@ HttpReply findQuality(const Ports& ports, const HttpRequest& request, ResultForm
   const std::string quality = ports.results.findQuality(request.identity, jobId(request));
   const JobView job = ports.jobs.find(request.identity, jobId(request));
   const std::string tag = makeTag(job.provenance, {"quality", formatName(format)});
-  switch (format) {
-    case ResultFormat::kJson:
-      return replyResult(format, quality, tag);
-    case ResultFormat::kCsv:
-      return replyResult(format, renderQualityCsv(quality), tag);
-    case ResultFormat::kSto:
-      return replyResult(
-          format, ports.results.encodeSto(makeQualityTable(quality), AngleUnit::kRadians), tag);
+  if (format == ResultFormat::kCsv) {
+    return replyResult(format, renderQualityCsv(quality), tag);
   }
-  return {};
+  if (format == ResultFormat::kSto) {
+    return replyResult(
+        format, ports.results.encodeSto(makeQualityTable(quality), AngleUnit::kRadians), tag);
+  }
+  return replyResult(format, quality, tag);
 }
 
 std::string encodeTable(ResultPort& results,

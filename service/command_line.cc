@@ -145,9 +145,10 @@ KeysOptions makeKeysOptions(const CLI::App& app, const KeyFlags& keys) {
 
 // How the service starts this program as its own child; not for people, so not in the help.
 void addChildren(CLI::App& app, ChildOptions& child) {
-  for (const char* name : {"solve", "inspect"}) {
+  for (const char* name : {"solve", "inspect", "draw"}) {
     CLI::App* command = app.add_subcommand(name)->group("");
     command->add_option("--models", child.models)->required();
+    command->add_option("--geometry", child.geometry);
     command->add_option("--parent", child.parent)->required();
     command->add_option("--memory-mb", child.limits.memory_mb)->required();
     command->add_option("--nice", child.limits.nice)->required();
@@ -250,9 +251,12 @@ Command choose(const CLI::App& app, Parsed& parsed) {
   if (chosen == "serve" || chosen == "work") {
     return makeServeOptions(chosen, parsed.serve);
   }
-  if (chosen == "solve" || chosen == "inspect") {
-    parsed.child.task =
-        chosen == "solve" ? ChildOptions::Task::kSolve : ChildOptions::Task::kInspect;
+  const std::map<std::string, ChildOptions::Task> children = {
+      {"solve", ChildOptions::Task::kSolve},
+      {"inspect", ChildOptions::Task::kInspect},
+      {"draw", ChildOptions::Task::kDraw}};
+  if (children.count(chosen) > 0) {
+    parsed.child.task = children.at(chosen);
     return parsed.child;
   }
   if (chosen == "model" && app.get_subcommand("model")->got_subcommand("calibrate")) {

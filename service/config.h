@@ -41,6 +41,13 @@ struct ServeConfig {
   int max_event_streams = 256;
   int inspect_in_child_mb = 8;
 
+  std::string geometry;
+  double draw_timeout_s = 120;
+  double draw_idle_s = 300;
+  int draw_memory_mb = 2048;
+  int max_image_mpx = 250;
+  int image_cache_mb = 64;
+
   int min_free_mb = 64;
   int max_db_mb = 0;
   int keep_days = 0;

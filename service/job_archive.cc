@@ -1,13 +1,16 @@
 #include "service/job_archive.h"
 
 #include <algorithm>
+#include <memory>
 
 #include <nlohmann/json.hpp>
 
+#include "api/dto/vega_lite.h"
 #include "core/base/error.h"
 #include "service/job_input.h"
 #include "service/storage/sha256.h"
 #include "service/storage/table_codec.h"
+#include "service/stored_results.h"
 
 namespace gaitmill {
 
@@ -47,16 +50,19 @@ std::string calcHash(const api::ByteSource& bytes) {
 JobArchive::JobArchive(Stores& stores,
                        const ShippedCatalog& shipped,
                        JobComposer& composer,
-                       StoEncoder encode_sto,
+                       ReportService& reports,
+                       const PipelineFunctions& functions,
                        std::string folder)
     : stores_(stores),
       shipped_(shipped),
       composer_(composer),
-      encode_sto_(std::move(encode_sto)),
+      reports_(reports),
+      encode_sto_(functions.encode_sto),
+      figures_(functions.figures),
       folder_(std::move(folder)) {}
 
-api::FileContent JobArchive::make(const std::string& tenant, const std::string& job_id) {
-  const api::JobView job = stores_.jobs.find(tenant, job_id);
+api::FileContent JobArchive::make(const api::Identity& who, const std::string& job_id) {
+  const api::JobView job = stores_.jobs.find(who.tenant, job_id);
   require(job.state == api::JobState::kSucceeded,
           ErrorCode::kResultNotReady,
           "the archive is there when the job has succeeded; it is " +
@@ -66,7 +72,7 @@ api::FileContent JobArchive::make(const std::string& tenant, const std::string& 
     return *kept;
   }
   // Built without the lock: nobody waits for the archive of another job.
-  api::FileContent archive = build(tenant, job);
+  api::FileContent archive = build(who, job);
   const std::lock_guard<std::mutex> lock(guard_);
   kept_.emplace_front(job_id, archive);
   kept_.resize(std::min(kept_.size(), kKept));
@@ -84,10 +90,12 @@ std::optional<api::FileContent> JobArchive::findKept(const std::string& job_id) 
   return kept->second;
 }
 
-api::FileContent JobArchive::build(const std::string& tenant, const api::JobView& job) {
+api::FileContent JobArchive::build(const api::Identity& who, const api::JobView& job) {
+  const std::string& tenant = who.tenant;
   std::vector<ZipEntry> entries;
   addInputs(tenant, job, entries);
   addResults(tenant, job, entries);
+  addViews(who, job, entries);
   entries.push_back(makeTextEntry("settings.json", json::parse(job.settings_json).dump(2) + "\n"));
   entries.push_back(makeTextEntry("provenance.json", renderOrigin(tenant, job)));
   entries.push_back(makeTextEntry("CITATION", kCitation));
@@ -136,6 +144,23 @@ void JobArchive::addResults(const std::string& tenant,
         addTable(tenant, job, result, entries);
         break;
     }
+  }
+}
+
+void JobArchive::addViews(const api::Identity& who,
+                          const api::JobView& job,
+                          std::vector<ZipEntry>& entries) {
+  const auto results = std::make_shared<StoredResults>(stores_.jobs, who.tenant, job.id);
+  for (const FigureInfo& info : figures_.list(*results)) {
+    entries.push_back(
+        {"plots/" + makeArchiveName(info.name) + ".vl.json", [this, results, name = info.name] {
+           return api::makeByteSource(api::renderVegaLite(figures_.make(*results, name)));
+         }});
+  }
+  entries.push_back(makeTextEntry("report.html", reports_.render(who, job.id)));
+  for (NamedImage& named : reports_.paintInstants(who, job.id)) {
+    entries.push_back(
+        makeTextEntry("images/" + makeArchiveName(named.file_name), std::move(named.image.bytes)));
   }
 }
 

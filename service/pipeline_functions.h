@@ -6,7 +6,11 @@
 
 #include "api/dto/result.h"
 #include "api/dto/trial.h"
+#include "core/figure/figure.h"
+#include "core/figure/result_source.h"
 #include "core/pipeline/pipeline.h"
+#include "core/report/report.h"
+#include "service/draw_task.h"
 
 namespace gaitmill {
 
@@ -24,7 +28,30 @@ using TrialInspector = std::function<api::TrialView(const api::TrialUpload& uplo
 /// A catalog document to the JSON of what was understood (api::CatalogEntry::summary_json).
 /// @throws Error of the reader that refuses it
 using DocumentReader = std::function<std::string(const InputFile& document)>;
+/// What draws in the process that calls it. @param geometry  folder of meshes; empty = none
+using DrawingMaker = std::function<Drawing(const std::string& geometry)>;
 using StoEncoder = std::function<std::string(const TimeSeries& table, api::AngleUnit angles)>;
+
+/// A job that is held against others.
+struct ComparedJob {
+  std::string name;  ///< in legends
+  const ResultSource* results = nullptr;
+};
+using ComparedJobs = std::vector<ComparedJob>;
+
+/// What is shown of results besides images.
+struct FigureFunctions {
+  std::function<std::vector<FigureInfo>(const ResultSource& results)> list;
+  /// @throws Error kFigureNotFound
+  std::function<Figure(const ResultSource& results, const std::string& name)> make;
+  /// Differences to the first job, a JSON array.
+  std::function<std::string(const ComparedJobs& jobs)> compare;
+  std::function<std::vector<FigureInfo>(const ComparedJobs& jobs)> list_overlays;
+  /// @throws Error kFigureNotFound
+  std::function<Figure(const ComparedJobs& jobs, const std::string& name)> make_overlay;
+  std::function<std::vector<ReportInstant>(const ResultSource& results)> find_instants;
+  std::function<std::string(const ReportContent& content)> render_report;
+};
 
 /// What the service needs of the physics, so that its tests can put something quick in its place.
 struct PipelineFunctions {
@@ -34,6 +61,8 @@ struct PipelineFunctions {
   DocumentReader read_model;
   DocumentReader read_marker_set;  ///< JSON with the members "markers", those of inverse kinematics
   StoEncoder encode_sto;
+  FigureFunctions figures;
+  DrawingMaker make_drawing;
   std::string default_settings;  ///< a document with every field and its default
 };
 

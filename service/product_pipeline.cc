@@ -1,8 +1,11 @@
 #include "service/product_pipeline.h"
 
+#include "core/figure/job_figures.h"
 #include "core/io/table_writer.h"
+#include "core/report/report.h"
 #include "service/catalog_readers.h"
 #include "service/inspection.h"
+#include "service/product_drawing.h"
 
 namespace gaitmill {
 
@@ -12,6 +15,15 @@ std::string encodeSto(const TimeSeries& table, api::AngleUnit angles) {
   TableWriteOptions options;
   options.angles = angles == api::AngleUnit::kDegrees ? AngleUnit::kDegrees : AngleUnit::kRadians;
   return writeTable(table, options);
+}
+
+FigureFunctions makeFigures() {
+  FigureFunctions figures;
+  figures.list = listFigures;
+  figures.make = makeFigure;
+  figures.find_instants = findReportInstants;
+  figures.render_report = renderReport;
+  return figures;
 }
 
 }  // namespace
@@ -32,6 +44,8 @@ PipelineFunctions makeProductPipeline(const std::string& models_folder) {
   functions.read_model = summarizeModel;
   functions.read_marker_set = summarizeMarkerSet;
   functions.encode_sto = encodeSto;
+  functions.figures = makeFigures();
+  functions.make_drawing = makeProductDrawing;
   functions.default_settings = Pipeline::defaultSettings();
   return functions;
 }

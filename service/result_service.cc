@@ -85,7 +85,7 @@ api::FileContent ResultService::findFile(const api::Identity& who,
 }
 
 api::FileContent ResultService::makeArchive(const api::Identity& who, const std::string& job_id) {
-  return archive_.make(who.tenant, job_id);
+  return archive_.make(who, job_id);
 }
 
 }  // namespace gaitmill

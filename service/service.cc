@@ -96,17 +96,30 @@ PipelineFunctions withLargeInspectionInChild(PipelineFunctions functions,
   return functions;
 }
 
-PortOptions makePortOptions(const ServeConfig& config) {
+DrawOptions makeDrawOptions(const ServeConfig& config, const std::string& program) {
+  constexpr std::int64_t kMega = 1'000'000;
+  DrawOptions options;
+  options.program = program;
+  options.geometry = config.geometry;
+  options.limits.deadline = toMilliseconds(config.draw_timeout_s);
+  options.limits.idle = toMilliseconds(config.draw_idle_s);
+  options.limits.child = {config.draw_memory_mb, config.nice};
+  options.max_pixels = config.max_image_mpx * kMega;
+  options.cache_bytes = toSize(config.image_cache_mb) * kMebi;
+  return options;
+}
+
+PortOptions makePortOptions(const ServeConfig& config, const std::string& program) {
   PortOptions options;
   options.models = config.models;
   options.spool_folder = config.spool;
-  options.keys =
-      isLoopback(config.host) ? KeyPolicy::kOpenWithoutKeys : KeyPolicy::kKeysRequired;
+  options.keys = isLoopback(config.host) ? KeyPolicy::kOpenWithoutKeys : KeyPolicy::kKeysRequired;
   options.quota.bytes = static_cast<std::int64_t>(config.quota_mb * static_cast<double>(kMebi));
   options.quota.jobs = static_cast<std::int64_t>(config.quota_jobs);
   options.quota.frames = static_cast<std::int64_t>(config.quota_frames);
   options.quota.pixels = static_cast<std::int64_t>(config.quota_pixels);
   options.workers = countWorkers(config);
+  options.draw = makeDrawOptions(config, program);
   return options;
 }
 
@@ -153,8 +166,10 @@ Service::Service(const ServeConfig& config,
       ports_(stores_,
              withLargeInspectionInChild(functions, config, program),
              {[this] { workers_->wake(); },
-              [this](const std::string& job_id) { workers_->cancel(job_id); }},
-             makePortOptions(config)),
+              [this](const std::string& job_id) {
+                workers_->cancel(job_id);
+              }},
+             makePortOptions(config, program)),
       retention_(stores_, config.keep_days),
       server_(api::makeRoutes(ports_.ports(status_), kVersion),
               makeHookedServerOptions(config),
@@ -171,10 +186,8 @@ Service::Service(const ServeConfig& config,
   addProcessMetrics(metrics_);
   status_.setLoad([this] { return server_.load(); });
   stores_.jobs.setListener([this](const JobChange& change) { notify(change); });
-  workers_ = std::make_unique<Workers>(stores_,
-                                       ports_.shipped(),
-                                       metrics_,
-                                       makeWorkersOptions(config, program, stores_.owner));
+  workers_ = std::make_unique<Workers>(
+      stores_, ports_.shipped(), metrics_, makeWorkersOptions(config, program, stores_.owner));
   stores_.trials.removeUnfinishedUploads();
   const Recovery recovery = stores_.jobs.lapseLeases(kServeOwner);
   logEvent(Severity::kInfo,
@@ -190,7 +203,9 @@ api::ServerOptions Service::makeHookedServerOptions(const ServeConfig& config) {
   options.authenticate = [this](const std::string& header) {
     return ports_.keyCache().authenticate(header);
   };
-  options.on_request = [this](const api::RequestRecord& record) { status_.count(record); };
+  options.on_request = [this](const api::RequestRecord& record) {
+    status_.count(record);
+  };
   return options;
 }
 
@@ -227,6 +242,7 @@ bool Service::stop() {
 
 void Service::stopRequests() {
   if (requests_.joinable()) {
+    ports_.drawing().stop();  // nobody waits for an image any more
     server_.stop();
     requests_.join();
   }

@@ -3,12 +3,14 @@
 #include <cstdlib>
 #include <exception>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "service/draw_task.h"
 #include "service/job_input.h"
 #include "service/process/child_channel.h"
 #include "service/process/messages.h"
@@ -167,7 +169,59 @@ void inspect(ChildChannel& channel, Assignment assignment, const TrialInspector&
   channel.send(makeFrame(Message::kDone));
 }
 
+// What the service says until kGo. Parts stay from one task to the next unless new ones come.
+std::string receiveTask(ChildChannel& channel, std::optional<DrawData>& data) {
+  std::string task;
+  std::map<std::string, std::string> parts;
+  std::string* target = nullptr;
+  while (true) {
+    const Frame frame = channel.receive();
+    switch (messageOf(frame)) {
+      case Message::kTask:
+        task = fieldOf(frame, 0);
+        break;
+      case Message::kPart:
+        target = &parts[fieldOf(frame, 0)];
+        break;
+      case Message::kData:
+        check(target != nullptr, "bytes of nothing");
+        *target += fieldOf(frame, 0);
+        break;
+      case Message::kGo:
+        data = parts.empty() ? std::move(data) : decodeDrawData(std::move(parts));
+        return task;
+      default:
+        throw Error(ErrorCode::kInternal, "the service says what only its children say");
+    }
+  }
+}
+
+void drawNext(ChildChannel& channel, const Drawing& draw, std::optional<DrawData>& data) {
+  const DrawTask task = decodeDrawTask(receiveTask(channel, data));
+  check(data.has_value(), "there is nothing to draw from");
+  const Picture picture = draw(task, *data);
+  channel.sendItem(makeFrame(Message::kItem, {picture.content_type}), picture.bytes);
+  channel.send(makeFrame(Message::kDone));
+}
+
+// Ends with the channel, or is killed.
+[[noreturn]] void drawForever(ChildChannel& channel, const Drawing& draw) {
+  std::optional<DrawData> data;
+  while (true) {
+    try {
+      drawNext(channel, draw, data);
+    } catch (const Error& error) {
+      channel.send(makeErrorFrame(error));
+    } catch (const std::exception& error) {
+      channel.send(makeErrorFrame(Error(ErrorCode::kRender, error.what())));
+    }
+  }
+}
+
 void work(ChildChannel& channel, const ChildOptions& options, const PipelineFunctions& functions) {
+  if (options.task == ChildOptions::Task::kDraw) {
+    drawForever(channel, functions.make_drawing(options.geometry));
+  }
   Assignment assignment = receiveAssignment(channel);
   if (options.task == ChildOptions::Task::kInspect) {
     inspect(channel, std::move(assignment), functions.inspect);

@@ -28,10 +28,13 @@ struct FormatName {
   const char* media_type;
   const char* content_type;
 };
-constexpr std::array<FormatName, 3> kFormats{
+constexpr const char* kVegaLiteType = "application/vnd.vegalite.v5+json";
+constexpr std::array<FormatName, 5> kFormats{
     {{ResultFormat::kJson, "json", "application/json", "application/json"},
      {ResultFormat::kCsv, "csv", "text/csv", "text/csv; charset=utf-8"},
-     {ResultFormat::kSto, "sto", "application/vnd.opensim.sto", "application/vnd.opensim.sto"}}};
+     {ResultFormat::kSto, "sto", "application/vnd.opensim.sto", "application/vnd.opensim.sto"},
+     {ResultFormat::kVegaLite, "vega-lite", kVegaLiteType, kVegaLiteType},
+     {ResultFormat::kSvg, "svg", "image/svg+xml", "image/svg+xml"}}};
 
 std::string trim(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t");

@@ -13,7 +13,7 @@ namespace gaitmill::api {
 
 enum class TableAxis { kTime, kCycle };
 enum class AngleUnit { kRadians, kDegrees };
-enum class ResultFormat { kJson, kCsv, kSto };
+enum class ResultFormat { kJson, kCsv, kSto, kVegaLite, kSvg };
 
 /// Names of all result tables, as in PipelineResult::tables.
 const std::vector<std::string>& tableNames();
@@ -58,9 +58,10 @@ ResultFormat findResultFormat(const std::string& format,
 TableAxis parseTableAxis(const std::string& text);
 AngleUnit parseAngleUnit(const std::string& text);
 
-/// "application/json", "text/csv; charset=utf-8", "application/vnd.opensim.sto"
+/// "application/json", "text/csv; charset=utf-8", "application/vnd.opensim.sto",
+/// "application/vnd.vegalite.v5+json", "image/svg+xml"
 const char* contentType(ResultFormat format);
-/// "json", "csv", "sto"
+/// "json", "csv", "sto", "vega-lite", "svg"
 const char* formatName(ResultFormat format);
 
 /// Columns in rad and rad/s to deg and deg/s; all others as they are.

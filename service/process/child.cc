@@ -55,7 +55,8 @@ ChannelPair makeErrorPipe() {
 }
 
 std::vector<std::string> makeEnvironment() {
-  std::vector<std::string> kept = {"LC_ALL=C.UTF-8"};
+  // The renderer would keep compiled shaders in files, which a child may not write.
+  std::vector<std::string> kept = {"LC_ALL=C.UTF-8", "MESA_SHADER_CACHE_DISABLE=true"};
   for (const char* name : {"PATH",
                            "GALLIUM_DRIVER",
                            "LD_LIBRARY_PATH",

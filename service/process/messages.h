@@ -27,6 +27,7 @@ enum class Message : std::uint8_t {
   kUnderstood,   ///< of an inspection: what was understood as JSON, then warnings
   kError,        ///< an Error; nothing follows
   kOutOfMemory,  ///< nothing follows
+  kTask,         ///< to the child that draws: what to draw; items that follow replace earlier ones
 };
 
 /// Bytes of an item that travel in one message.

@@ -8,6 +8,7 @@
 #include "service/storage/result_kinds.h"
 #include "service/storage/sql/jobs.h"
 #include "service/storage/sql/results.h"
+#include "service/storage/usage_rows.h"
 
 namespace gaitmill {
 
@@ -90,6 +91,20 @@ StoredResult JobStore::readResult(const std::string& tenant,
   }
   result.bytes = unpack(packed, "the result '" + name + "'");
   return result;
+}
+
+void JobStore::chargePixels(const std::string& tenant,
+                            const std::string& job_id,
+                            std::int64_t pixels,
+                            const Quota& quota) {
+  if (quota.pixels == 0) {
+    return;
+  }
+  database_.write([&](Connection& db) {
+    const JobStanding standing = requireJob(db, tenant, job_id);
+    db.prepare(sql::kAddPixels).bind(1, job_id).bind(2, pixels).run();
+    chargeUsage(db, tenant, standing.key_id, {0, 0, 0, 0, pixels}, quota);
+  });
 }
 
 std::vector<api::FileView> JobStore::listFiles(const std::string& tenant,

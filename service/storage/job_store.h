@@ -225,6 +225,14 @@ class JobStore {
                             const std::string& job_id,
                             const std::string& name);
 
+  /// Adds pixels of an image to what the job's key has used. Where the quota has no limit for them
+  /// nothing is counted, so that looking at images writes nothing.
+  /// @throws Error kJobNotFound, kQuotaExceeded
+  void chargePixels(const std::string& tenant,
+                    const std::string& job_id,
+                    std::int64_t pixels,
+                    const Quota& quota);
+
   /// The number of the last change of any job: one indexed read.
   std::int64_t lastChange();
   /// Changed after `since`, in the order of change, each job once, at most 1000.

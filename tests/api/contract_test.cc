@@ -24,6 +24,7 @@ namespace {
 
 using Answer = ApiContract::Answer;
 
+constexpr const char* kOtherJobId = "job_01hf3v6k9e2m8xw7p0q4t5r6s2";
 constexpr const char* kAllScopes = "Authorization: Bearer all\r\n";
 constexpr const char* kNoScopes = "Authorization: Bearer none\r\n";
 
@@ -90,7 +91,9 @@ std::string fillPattern(const std::string& pattern) {
                          : startsWith(pattern, "/v1/studies") ? kStudyId
                          : startsWith(pattern, "/v1/keys")    ? kKeyId
                                                               : kModelId;
-  const std::string name = pattern.find("/results/") != std::string::npos ? "kinematics" : "ik.mot";
+  const std::string name = pattern.find("/results/") != std::string::npos ? "kinematics"
+                           : pattern.find("/files/") != std::string::npos ? "ik.mot"
+                                                                          : "angles";
   std::string path = replaceAll(pattern, "{id}", id);
   path = replaceAll(path, "{name}", name);
   path = replaceAll(path, "{part}", "markers");
@@ -100,6 +103,7 @@ std::string fillPattern(const std::string& pattern) {
 ErrorCode findNotFoundCode(const std::string& pattern) {
   return startsWith(pattern, "/v1/trials")        ? ErrorCode::kTrialNotFound
          : startsWith(pattern, "/v1/jobs")        ? ErrorCode::kJobNotFound
+         : startsWith(pattern, "/v1/compare")     ? ErrorCode::kJobNotFound
          : startsWith(pattern, "/v1/studies")     ? ErrorCode::kStudyNotFound
          : startsWith(pattern, "/v1/keys")        ? ErrorCode::kKeyNotFound
          : startsWith(pattern, "/v1/settings")    ? ErrorCode::kSettingsNotFound
@@ -133,6 +137,9 @@ Request makeGoodRequest(const std::string& method, const std::string& pattern) {
     request.content_type = type;
     request.body = body;
   };
+  if (startsWith(pattern, "/v1/compare")) {
+    request.query = std::string("?jobs=") + kJobId + "," + kOtherJobId;
+  }
   const std::string operation = method + " " + pattern;
   if (operation == "POST /v1/trials") {
     carry("multipart/form-data; boundary=x",
@@ -232,7 +239,7 @@ class ContractTest : public ::testing::Test {
         request.method = "PATCH";
         return request.bytes();
       case 406:
-        request.query = "?format=xml";
+        request.query += request.query.empty() ? "?format=xml" : "&format=xml";
         return request.bytes();
       case 411:
         return request.head() + "Content-Type: " + request.content_type + "\r\n\r\n";

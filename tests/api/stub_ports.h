@@ -32,6 +32,7 @@ struct StubRecord {
   api::StudyRequest study;
   api::ListFilter filter;
   api::PageRequest page;
+  api::ImageRequest image;
   std::string document;  ///< of the last model or marker set
   std::string next_cursor;
   api::JobState state = api::JobState::kRunning;  ///< of the job that is found
@@ -303,6 +304,147 @@ class StubResults : public api::ResultPort {
   StubRecord& record_;
 };
 
+/// A figure with one panel and one curve, which has a hole.
+inline Figure makeStubFigure(const std::string& name) {
+  Figure figure;
+  figure.name = name;
+  figure.title = "Joint angles";
+  figure.caption = "What the markers say.";
+  Panel panel;
+  panel.name = "knee_angle_r";
+  panel.title = "Right knee";
+  panel.x = {"Gait cycle", "%", 0.0, 100.0};
+  panel.y = {"Knee flexion", "deg"};
+  Series series;
+  series.name = "right";
+  series.role = SeriesRole::kRight;
+  series.x = {0.0, 50.0, 100.0};
+  series.y = {5.0, std::numeric_limits<double>::quiet_NaN(), 60.0};
+  panel.series = {series};
+  panel.guides = {{Guide::Direction::kVertical, 62.0, "right toe-off"}};
+  figure.panels = {panel};
+  return figure;
+}
+
+inline std::vector<FigureInfo> listStubFigures() {
+  return {{"angles", "Joint angles", "What the markers say."}};
+}
+
+class StubFigures : public api::FigurePort {
+ public:
+  explicit StubFigures(StubRecord& record) : record_(record) {}
+  std::string findTag(const api::Identity& who, const std::string& job_id) override {
+    record_.note(who, "tag figures " + job_id);
+    return "tag";
+  }
+  std::vector<FigureInfo> list(const api::Identity& who, const std::string& job_id) override {
+    record_.note(who, "list figures " + job_id);
+    return listStubFigures();
+  }
+  Figure find(const api::Identity& who,
+              const std::string& job_id,
+              const std::string& name) override {
+    record_.note(who, "find figure " + job_id + " " + name);
+    return makeStubFigure(name);
+  }
+
+ private:
+  StubRecord& record_;
+};
+
+class StubImages : public api::ImagePort {
+ public:
+  explicit StubImages(StubRecord& record) : record_(record) {}
+  std::string findTag(const api::Identity& who,
+                      const std::string& job_id,
+                      const api::ImageRequest& request) override {
+    record_.image = request;
+    record_.note(who, "tag image " + job_id);
+    return "tag";
+  }
+  api::ImageFile paint(const api::Identity& who,
+                       const std::string& job_id,
+                       const api::ImageRequest& request) override {
+    record_.image = request;
+    record_.note(who, "paint " + job_id);
+    const bool is_still = request.kind != api::ImageKind::kAnimation;
+    return {is_still ? "image/png" : "image/webp", api::makeByteSource("pixels")};
+  }
+
+ private:
+  StubRecord& record_;
+};
+
+class StubReports : public api::ReportPort {
+ public:
+  explicit StubReports(StubRecord& record) : record_(record) {}
+  std::string findTag(const api::Identity& who, const std::string& job_id) override {
+    record_.note(who, "tag report " + job_id);
+    return "tag";
+  }
+  std::string findQuality(const api::Identity& who, const std::string& job_id) override {
+    record_.note(who, "find verdict " + job_id);
+    return std::string(R"({"job":")") + job_id + R"(","verdict":"pass","provenance":")" +
+           std::string(64, 'd') +
+           R"(","warnings":[],"reasons":[],"checks":[],"figures":{},"report":"/v1/r"})";
+  }
+  std::string render(const api::Identity& who, const std::string& job_id) override {
+    record_.note(who, "render report " + job_id);
+    return "<!doctype html><title>report</title>";
+  }
+
+ private:
+  StubRecord& record_;
+};
+
+class StubComparisons : public api::ComparePort {
+ public:
+  explicit StubComparisons(StubRecord& record) : record_(record) {}
+  std::string findTag(const api::Identity& who, const std::vector<std::string>& ids) override {
+    record_.note(who, "tag comparison of " + ids.front() + " and " + ids.back());
+    return "tag";
+  }
+  api::ComparisonView compare(const api::Identity& who,
+                              const std::vector<std::string>& ids) override {
+    record_.note(who, "compare " + ids.front() + " and " + ids.back());
+    return {"[]", listStubFigures()};
+  }
+  Figure find(const api::Identity& who,
+              const std::vector<std::string>& ids,
+              const std::string& name) override {
+    record_.note(who, "overlay " + ids.front() + " and " + ids.back() + " " + name);
+    return makeStubFigure(name);
+  }
+
+ private:
+  StubRecord& record_;
+};
+
+class StubValidations : public api::ValidationPort {
+ public:
+  explicit StubValidations(StubRecord& record) : record_(record) {}
+  std::string findTag(const api::Identity& who,
+                      const std::string& model_id,
+                      std::uint64_t seed) override {
+    record_.note(who, "tag validation " + model_id + " " + std::to_string(seed));
+    return "tag" + std::to_string(seed);
+  }
+  std::vector<FigureInfo> list(const api::Identity& who, const std::string& model_id) override {
+    record_.note(who, "list validations " + model_id);
+    return listStubFigures();
+  }
+  Figure find(const api::Identity& who,
+              const std::string& model_id,
+              const std::string& name,
+              std::uint64_t seed) override {
+    record_.note(who, "validate " + model_id + " " + name + " " + std::to_string(seed));
+    return makeStubFigure(name);
+  }
+
+ private:
+  StubRecord& record_;
+};
+
 class StubCatalog : public api::CatalogPort {
  public:
   StubCatalog(StubRecord& record, std::string kind) : record_(record), kind_(std::move(kind)) {}
@@ -427,6 +569,11 @@ struct StubPorts {
   StubJobs jobs{record};
   StubStudies studies{record};
   StubResults results{record};
+  StubFigures figures{record};
+  StubImages images{record};
+  StubReports reports{record};
+  StubComparisons comparisons{record};
+  StubValidations validations{record};
   StubCatalog models{record, "model"};
   StubCatalog marker_sets{record, "marker set"};
   StubSettings settings{record};
@@ -435,8 +582,21 @@ struct StubPorts {
   StubStatus status{record};
 
   api::Ports ports() {
-    return {
-        trials, jobs, studies, results, models, marker_sets, settings, keys, idempotency, status};
+    return {trials,
+            jobs,
+            studies,
+            results,
+            figures,
+            images,
+            reports,
+            comparisons,
+            validations,
+            models,
+            marker_sets,
+            settings,
+            keys,
+            idempotency,
+            status};
   }
 };
 

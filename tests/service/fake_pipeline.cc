@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <thread>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -75,6 +76,7 @@ StageOutcome makeOutcome(const TrialInput& input, Stage stage) {
       outcome.tables[table] = makeFakeTable(table);
     }
     outcome.cycle_tables["moments"] = makeFakeTable("moments");
+    outcome.files["adjusted_model.osim"] = R"({"markers": []})";
   }
   return outcome;
 }
@@ -158,6 +160,112 @@ std::string readFakeDocument(const InputFile& document) {
   return object.dump();
 }
 
+// A figure of each of these tables that a job has.
+std::vector<FigureInfo> listFakeFigures(const ResultSource& results) {
+  std::vector<FigureInfo> list;
+  for (const char* name : {"moments", "activations"}) {
+    if (results.has(name, ResultSource::Axis::kTime)) {
+      list.push_back({name, std::string("The ") + name, "As they are."});
+    }
+  }
+  return list;
+}
+
+Figure makeFakeFigure(const ResultSource& results, const std::string& name) {
+  for (const FigureInfo& info : listFakeFigures(results)) {
+    if (info.name == name) {
+      const TimeSeries& table = results.table(name, ResultSource::Axis::kTime);
+      Series series;
+      series.name = table.labels.front();
+      series.x = table.time;
+      series.y = {table.values(0, 0), table.values(1, 0), table.values(2, 0)};
+      Panel panel;
+      panel.name = table.labels.front();
+      panel.title = panel.name;
+      panel.x = {"Time", "s"};
+      panel.y = {"Moment", "N·m"};
+      panel.series.push_back(series);
+      return {info.name, info.title, info.caption, 1, {panel}};
+    }
+  }
+  throw Error(ErrorCode::kFigureNotFound, "there is no figure '" + name + "'");
+}
+
+std::string renderFakeReport(const ReportContent& content) {
+  std::string html = "<!doctype html><title>" + content.provenance.job_id + "</title>";
+  for (const Figure& figure : content.figures) {
+    html += "<h2>" + figure.title + "</h2>";
+  }
+  for (const ReportImage& image : content.images) {
+    html += "<p>" + image.caption + ": " + image.bytes + "</p>";
+  }
+  for (const ReportInput& input : content.provenance.inputs) {
+    html += "<p>" + input.part + " " + input.sha256 + "</p>";
+  }
+  return html;
+}
+
+FigureFunctions makeFakeFigures() {
+  FigureFunctions figures;
+  figures.list = listFakeFigures;
+  figures.make = makeFakeFigure;
+  figures.compare = [](const ComparedJobs& jobs) {
+    json names = json::array();
+    for (const ComparedJob& job : jobs) {
+      names.push_back({{"job", job.name}});
+    }
+    return names.dump();
+  };
+  figures.list_overlays = [](const ComparedJobs& jobs) {
+    return listFakeFigures(*jobs.front().results);
+  };
+  figures.make_overlay = [](const ComparedJobs& jobs, const std::string& name) {
+    return makeFakeFigure(*jobs.front().results, name);
+  };
+  figures.find_instants = [](const ResultSource& results) {
+    const TimeSeries& motion = results.table("kinematics", ResultSource::Axis::kTime);
+    return std::vector<ReportInstant>{{"Right heel strike", motion.time.front()},
+                                      {"Right toe-off", motion.time.back()}};
+  };
+  figures.render_report = renderFakeReport;
+  return figures;
+}
+
+// What a picture is of, in words. Views and figures of certain names do what children must survive.
+void misbehave(const DrawTask& task) {
+  if (task.figure == "crash" || task.options.width == 666) {
+    std::raise(SIGKILL);
+  }
+  if (task.figure == "sleep" || task.options.width == 777) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(400));
+  }
+  if (task.figure == "memory") {
+    std::vector<std::vector<char>> all;
+    while (true) {
+      all.emplace_back(std::size_t{1} << 28U, 'x');
+    }
+  }
+}
+
+Picture drawFake(const DrawTask& task, const DrawData& data) {
+  misbehave(task);
+  if (task.kind == DrawTask::Kind::kListValidations) {
+    return {kFiguresType,
+            encodeFigures({{"curves", "Curves", "Of muscles.", 2, {}},
+                           {"moment_arms", "Moment arms", "Of muscles.", 2, {}}})};
+  }
+  if (task.kind == DrawTask::Kind::kValidation) {
+    require(task.figure == "curves" || task.figure == "sleep",
+            ErrorCode::kFigureNotFound,
+            "figures are curves, moment_arms");
+    return {kFiguresType, encodeFigures({{task.figure, "Curves", data.picture.model_osim, 2, {}}})};
+  }
+  const bool is_still = task.kind != DrawTask::Kind::kAnimation;
+  return {is_still ? "image/png" : "image/webp",
+          "picture of " + std::to_string(data.picture.kinematics.rowCount()) + " rows at " +
+              std::to_string(task.start).substr(0, 4)};
+}
+
 }  // namespace
 
 TimeSeries makeFakeTable(const std::string& name) {
@@ -176,6 +284,10 @@ PipelineFunctions makeFakePipeline() {
   functions.read_marker_set = readFakeDocument;
   functions.encode_sto = [](const TimeSeries& table, api::AngleUnit) {
     return table.name + "\nversion=1\nendheader\n";
+  };
+  functions.figures = makeFakeFigures();
+  functions.make_drawing = [](const std::string&) {
+    return Drawing(drawFake);
   };
   functions.default_settings = R"({"steps": 4, "step_ms": 0})";
   return functions;

@@ -56,6 +56,7 @@ void PortFixture::open() {
   port_options.models = folder_ / "models";
   port_options.spool_folder = folder_.path();
   port_options.quota = quota_;
+  port_options.draw.program = FAKE_SERVICE;
   services_ = std::make_unique<PortServices>(*stores_, makeFakePipeline(), signals, port_options);
 }
 

@@ -37,6 +37,8 @@ inline constexpr const char* kFindStanding =
     "SELECT state, claim, lease_until, cancel_requested, deaths, owner, study_id, tenant, key_id, "
     "frames, pixels FROM jobs WHERE id = ?1";
 
+inline constexpr const char* kAddPixels = "UPDATE jobs SET pixels = pixels + ?2 WHERE id = ?1";
+
 inline constexpr const char* kClaim =
     "UPDATE jobs SET state = 'running', claim = claim + 1, owner = ?2, lease_until = ?3, "
     "started_at = coalesce(started_at, ?4) WHERE id = ?1";

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/figure/figure.h"
+
+namespace gaitmill::api {
+
+/// {"name", "title", "caption", "url"}
+/// @param url  where the figure is
+std::string renderFigureInfo(const FigureInfo& info, const std::string& url);
+
+/// {"items": […], "next_cursor": null}: a list that is always whole.
+/// @param folder  path of the figures, without the last slash
+/// @param query   with its '?', added to each address; may be empty
+std::string renderFigureList(const std::vector<FigureInfo>& figures,
+                             const std::string& folder,
+                             const std::string& query = "");
+
+/// {"jobs": [id, …], "tables": […], "plots": […]}: jobs held against the first of them.
+/// @param tables_json  JSON array of differences
+/// @param figures      overlays of these jobs
+std::string renderComparison(const std::vector<std::string>& job_ids,
+                             const std::string& tables_json,
+                             const std::vector<FigureInfo>& figures);
+
+}  // namespace gaitmill::api
