@@ -34,12 +34,10 @@ class ImageService : public api::ImagePort {
                        const api::ImageRequest& request) override;
 
  private:
-  DrawTask makeTask(const api::ImageRequest& request, const StoredResults& results) const;
   DrawData readData(const std::string& tenant,
                     const std::string& job_id,
                     MuscleColor color,
                     const StoredResults& results);
-  std::string readModel(const std::string& tenant, const std::string& job_id);
 
   Stores& stores_;
   DrawProcess& drawing_;

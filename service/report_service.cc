@@ -1,7 +1,6 @@
 #include "service/report_service.h"
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -11,8 +10,8 @@
 #include "core/base/error.h"
 #include "service/job_tag.h"
 #include "service/provenance.h"
+#include "service/run_views.h"
 #include "service/shipped_catalog.h"
-#include "service/version.h"
 
 namespace gaitmill {
 
@@ -21,23 +20,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::uint64_t kMaxImage = 64U << 20U;  // [bytes]
-// A pose of the report: two beside each other on a page of paper, at twice a screen's pixels.
-constexpr int kPoseWidth = 640;   // [px]
-constexpr int kPoseHeight = 720;  // [px]
-
-std::string makeFileName(const std::string& instant) {
-  std::string name;
-  for (const char letter : instant) {
-    const auto code = static_cast<unsigned char>(letter);
-    name += std::isalnum(code) != 0 ? static_cast<char>(std::tolower(code)) : '_';
-  }
-  return name + ".png";
-}
-
-std::string describeTime(double time) {
-  const std::string digits = std::to_string(time);
-  return digits.substr(0, digits.find('.') + 3) + " s";
-}
 
 }  // namespace
 
@@ -112,13 +94,12 @@ std::vector<NamedImage> ReportService::paintInstants(const api::Identity& who,
   for (const ReportInstant& instant : functions_.find_instants(results)) {
     api::ImageRequest request;
     request.time = instant.time;
-    request.width = kPoseWidth;
-    request.height = kPoseHeight;
+    request.width = kReportPoseWidth;
+    request.height = kReportPoseHeight;
     const api::ImageFile image = images_.paint(who, job_id, request);
-    painted.push_back({makeFileName(instant.name),
-                       {instant.name + ", " + describeTime(instant.time),
-                        image.content_type,
-                        api::readAll(*image.bytes, kMaxImage)}});
+    painted.push_back(
+        {makeImageName(instant.name),
+         {makeImageCaption(instant), image.content_type, api::readAll(*image.bytes, kMaxImage)}});
   }
   return painted;
 }
@@ -134,7 +115,7 @@ ReportProvenance ReportService::collectProvenance(const api::Identity& who,
   provenance.model = job.model_id;
   provenance.settings_name = job.settings_name;
   provenance.provenance = job.provenance;
-  provenance.version = std::string("gaitmill ") + kVersion + ", sources " + sourceVersion();
+  provenance.version = sourceVersion();
   bool brings_model = false;
   for (const api::UnderstoodFile& file : stores_.trials.find(who.tenant, job.trial_id).files) {
     provenance.inputs.push_back({file.part, file.name, file.size, file.sha256});

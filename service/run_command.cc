@@ -9,7 +9,11 @@
 
 #include "core/base/error.h"
 #include "core/io/files.h"
+#include "service/provenance.h"
+#include "service/run_views.h"
 #include "service/settings_catalog.h"
+#include "service/shipped_catalog.h"
+#include "service/storage/sha256.h"
 
 namespace gaitmill {
 
@@ -84,6 +88,33 @@ void appendQuality(const json& value, const std::string& path, std::string& text
   }
 }
 
+// What the report says of where its numbers come from.
+ReportProvenance describeRun(const TrialInput& trial,
+                             const InputFile& settings,
+                             const RunOptions& options) {
+  ReportProvenance provenance;
+  provenance.job_id = std::filesystem::path(options.out).lexically_normal().filename().string();
+  provenance.model = trial.model ? trial.model->name : ShippedCatalog::kDefaultModel;
+  provenance.settings_name = settings.name;
+  provenance.version = sourceVersion();
+  const auto add = [&provenance](const char* part, const std::optional<InputFile>& file) {
+    if (file) {
+      provenance.inputs.push_back({part,
+                                   file->name,
+                                   static_cast<std::int64_t>(file->bytes.size()),
+                                   calcSha256(file->bytes)});
+    }
+  };
+  add("markers", trial.markers);
+  add("grf", trial.ground_reaction);
+  add("static", trial.static_markers);
+  add("static2", trial.static_markers_2);
+  add("emg", trial.emg);
+  add("model", trial.model);
+  add("coordinates", trial.coordinates);
+  return provenance;
+}
+
 }  // namespace
 
 std::string formatSummary(const std::string& summary_json) {
@@ -111,6 +142,13 @@ void runOnFiles(const RunOptions& options,
   functions.check_input(trial, settings);
   const PipelineResult result = functions.run(trial, settings, makeEvents(progress), {});
   for (const auto& [name, bytes] : result.files) {
+    writeFile(options.out + "/" + name, bytes);
+  }
+  const auto warn = [&progress](const std::string& sentence) {
+    progress << "warning: " << sentence << '\n';
+  };
+  const ReportProvenance provenance = describeRun(trial, settings, options);
+  for (const auto& [name, bytes] : makeRunViews(result, provenance, functions, warn)) {
     writeFile(options.out + "/" + name, bytes);
   }
   out << formatSummary(result.summary_json);

@@ -7,8 +7,8 @@
 
 namespace gaitmill {
 
-/// Reads the files, runs the pipeline, writes each result file in one step and prints a table of
-/// stages, seconds and quality figures.
+/// Reads the files, runs the pipeline, writes each result file in one step, with plots, images and
+/// report.html (service/run_views.h), and prints a table of stages, seconds and quality figures.
 /// @param out       the table
 /// @param progress  stages as they begin, and warnings
 /// @throws Error of the files, the settings or a stage

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "service/storage/table_codec.h"
 
 namespace gaitmill {
@@ -46,17 +44,6 @@ const std::string& StoredResults::summary() const {
                    : jobs_.readResult(tenant_, job_id_, ResultKind::kSummary, kSummary).bytes;
   }
   return summary_;
-}
-
-CycleSpan findCycleSpan(const std::string& summary_json) {
-  using nlohmann::json;
-  const json summary = json::parse(summary_json, nullptr, false);
-  const auto cycle = summary.is_object() ? summary.find("gait_cycle_s") : summary.end();
-  if (!summary.is_object() || cycle == summary.end() || !cycle->is_array() || cycle->size() != 2 ||
-      !cycle->at(0).is_number() || !cycle->at(1).is_number()) {
-    return {};
-  }
-  return {cycle->at(0).get<double>(), cycle->at(1).get<double>()};
 }
 
 }  // namespace gaitmill

@@ -34,12 +34,4 @@ class StoredResults : public ResultSource {
   mutable std::string summary_;
 };
 
-/// Start and end of the gait cycle as a summary has them [s]; `end` <= `start` if there is none.
-struct CycleSpan {
-  double start = 0;
-  double end = 0;
-  bool exists() const { return end > start; }
-};
-CycleSpan findCycleSpan(const std::string& summary_json);
-
 }  // namespace gaitmill

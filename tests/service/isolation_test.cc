@@ -27,12 +27,18 @@ using nlohmann::json;
 struct Belongings {
   std::map<std::string, std::string> ids;  // by the collection's name in paths
   std::string finished_job;
+  std::string second_job;  // also finished
   std::string queued_job;
 };
 
 // Collections whose entries are the same for everyone.
 bool isShared(const api::Route& route) {
   return route.pattern.rfind("/v1/settings", 0) == 0 || route.scope == api::Scope::kNone;
+}
+
+// What a route shows is named by its query instead of its path.
+bool isComparison(const api::Route& route) {
+  return route.pattern.rfind("/v1/compare", 0) == 0;
 }
 
 // "trials" of "/v1/trials/{id}/files/{part}"
@@ -48,6 +54,7 @@ class IsolationTest : public ::testing::Test {
   Belongings addBelongings(const api::Identity& who) {
     Belongings all;
     all.finished_job = fixture_.addFinishedJob(who);
+    all.second_job = fixture_.addFinishedJob(who);
     all.ids["jobs"] = all.finished_job;
     all.ids["trials"] = ports_.jobs.find(who, all.finished_job).trial_id;
     all.queued_job = fixture_.addJob(who, all.ids["trials"]);
@@ -73,6 +80,18 @@ class IsolationTest : public ::testing::Test {
     return request;
   }
 
+  // The same for what belongs to somebody.
+  api::HttpRequest makeRequest(const api::Route& route,
+                               const api::Identity& who,
+                               const Belongings& owner) const {
+    api::HttpRequest request = makeRequest(route, who);
+    request.captures = fillCaptures(route, owner);
+    if (isComparison(route)) {
+      request.query["jobs"] = owner.finished_job + "," + owner.second_job;
+    }
+    return request;
+  }
+
   // The captures of a route filled with what belongs to somebody.
   std::map<std::string, std::string> fillCaptures(const api::Route& route,
                                                   const Belongings& owner) const {
@@ -88,7 +107,8 @@ class IsolationTest : public ::testing::Test {
     }
     if (route.pattern.find("{name}") != std::string::npos) {
       const bool is_file = route.pattern.find("/files/") != std::string::npos;
-      captures["name"] = is_file ? "scaled_model.osim" : "moments";
+      const bool is_validation = route.pattern.find("/validation/") != std::string::npos;
+      captures["name"] = is_file ? "scaled_model.osim" : is_validation ? "curves" : "moments";
     }
     return captures;
   }
@@ -110,8 +130,7 @@ class IsolationTest : public ::testing::Test {
           route.pattern.find("events") != std::string::npos) {
         continue;
       }
-      api::HttpRequest request = makeRequest(route, who);
-      request.captures = fillCaptures(route, own);
+      api::HttpRequest request = makeRequest(route, who, own);
       const api::HttpReply reply = route.handle(request);
       EXPECT_EQ(reply.status, 200) << route.pattern;
       answers[route.pattern] = reply.source ? readSource(*reply.source) : reply.body;
@@ -149,15 +168,15 @@ TEST_F(IsolationTest, EveryRouteAnswersNotFoundForIdsOfAnotherTenant) {
   const auto before = readEverything(alice_, of_alice);
   int asked = 0;
   for (const api::Route& route : routes_) {
-    if (route.pattern.find("{id}") == std::string::npos || isShared(route)) {
+    const bool names_something = route.pattern.find("{id}") != std::string::npos;
+    if ((!names_something && !isComparison(route)) || isShared(route)) {
       continue;
     }
-    api::HttpRequest request = makeRequest(route, bob_);
-    request.captures = fillCaptures(route, of_alice);
+    const api::HttpRequest request = makeRequest(route, bob_, of_alice);
     EXPECT_EQ(findStatus(route, request), 404) << route.method << ' ' << route.pattern;
     ++asked;
   }
-  EXPECT_GT(asked, 20);
+  EXPECT_GT(asked, 30);
   EXPECT_EQ(readEverything(alice_, of_alice), before) << "nothing of Alice's has changed";
   EXPECT_EQ(ports_.jobs.find(alice_, of_alice.queued_job).state, api::JobState::kQueued);
 }
@@ -165,7 +184,8 @@ TEST_F(IsolationTest, EveryRouteAnswersNotFoundForIdsOfAnotherTenant) {
 TEST_F(IsolationTest, NoListShowsAnythingOfAnotherTenant) {
   const Belongings of_alice = addBelongings(alice_);
   for (const api::Route& route : routes_) {
-    if (route.method != "GET" || route.pattern.find('{') != std::string::npos || isShared(route)) {
+    if (route.method != "GET" || route.pattern.find('{') != std::string::npos || isShared(route) ||
+        isComparison(route)) {
       continue;
     }
     api::HttpRequest request = makeRequest(route, bob_);
@@ -316,7 +336,8 @@ TEST_F(ScopeTest, KeyWithTheScopePasses) {
   const std::string token = addKey({"read"});
   for (const api::Route& route : routes_) {
     if (route.scope == api::Scope::kRead && route.pattern.find('{') == std::string::npos) {
-      EXPECT_EQ(ask(route, token), 200) << route.pattern;
+      // A comparison is let in, and then asks which jobs.
+      EXPECT_EQ(ask(route, token), isComparison(route) ? 422 : 200) << route.pattern;
     }
   }
 }

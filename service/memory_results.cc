@@ -1,0 +1,24 @@
+#include "service/memory_results.h"
+
+#include "core/base/error.h"
+
+namespace gaitmill {
+
+bool MemoryResults::has(const std::string& table, Axis axis) const {
+  return tablesOf(axis).count(table) > 0;
+}
+
+const TimeSeries& MemoryResults::table(const std::string& table, Axis axis) const {
+  const auto found = tablesOf(axis).find(table);
+  require(found != tablesOf(axis).end(),
+          ErrorCode::kResultNotFound,
+          "this run has no table '" + table + "'",
+          {"", 0, 0, table});
+  return found->second;
+}
+
+const std::map<std::string, TimeSeries>& MemoryResults::tablesOf(Axis axis) const {
+  return axis == Axis::kTime ? result_.tables : result_.cycle_tables;
+}
+
+}  // namespace gaitmill
