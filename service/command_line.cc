@@ -1,10 +1,12 @@
 #include "service/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "core/base/error.h"
 
@@ -19,6 +21,20 @@ constexpr const char* kFooter =
 void addModels(CLI::App& command, std::string& models) {
   command.add_option("--models", models, "Folder of models, marker sets and settings")
       ->envname("GAITMILL_MODELS");
+}
+
+void addGeometry(CLI::App& command, std::string& geometry) {
+  command
+      .add_option(
+          "--geometry", geometry, "Folder of .vtp, .stl and .obj bones; stylised ones if left out")
+      ->envname("GAITMILL_GEOMETRY")
+      ->check(CLI::ExistingDirectory);
+}
+
+// "slow_down" is the flag --slow-down.
+std::string findFlag(std::string name) {
+  std::replace(name.begin(), name.end(), '_', '-');
+  return "--" + name;
 }
 
 // What `serve` and `work` are told on the command line, before it becomes a configuration.
@@ -183,6 +199,7 @@ void addRun(CLI::App& app, RunOptions& options) {
       ->required()
       ->check(CLI::Range(0.4, 2.6));
   command->add_option("--out", options.out, "Folder for the results")->required();
+  addGeometry(*command, options.geometry);
   addModels(*command, options.models);
   command->footer(kFooter);
 }
@@ -203,15 +220,88 @@ void addCalibrate(CLI::App& model, CalibrateOptions& options) {
   command->footer(kFooter);
 }
 
-void addModel(CLI::App& app, ModelOptions& options, CalibrateOptions& calibrate) {
+void addRender(CLI::App& app, RenderOptions& options) {
+  CLI::App* command =
+      app.add_subcommand("render", "Draw a pose, a strip of poses or an animation of a motion");
+  command->add_option("out", options.out, "Image: .png, or .webp for an animation")->required();
+  const auto add = [&](const char* flag, std::string& path, const char* help) {
+    command->add_option(flag, path, help)->check(CLI::ExistingPath);
+  };
+  add("--results", options.results, "Folder that 'gaitmill run' has left");
+  add("--model", options.model, "Model document, .osim");
+  add("--motion", options.motion, "Coordinates over time, MOT or STO");
+  add("--values", options.muscle_values, "Table that muscles are coloured by, STO");
+  addGeometry(*command, options.geometry);
+  // What they take is said and checked where the web service has them.
+  const std::vector<std::pair<const char*, const char*>> parameters = {
+      {"time", "Instant of a pose [s]"},
+      {"percent", "The same in percent of the gait cycle"},
+      {"poses", "Poses of a strip, 1 to 24"},
+      {"start", "Begin of a strip or an animation [s]"},
+      {"end", "End of a strip or an animation [s]"},
+      {"rate", "Frames per second of an animation"},
+      {"slow_down", "4 plays at a quarter of the real speed"},
+      {"width", "Of one pose [px]"},
+      {"height", "Of one pose [px]"},
+      {"view", "sagittal, frontal, oblique, or AZIMUTH,ELEVATION [deg]"},
+      {"color", "activation, force, fiber_length or none"},
+      {"bones", "true or false; so the next five"},
+      {"muscles", ""},
+      {"markers", ""},
+      {"forces", ""},
+      {"ground", ""},
+      {"legend", ""}};
+  for (const auto& [name, help] : parameters) {
+    command->add_option_function<std::string>(
+        findFlag(name),
+        [&options, name = std::string(name)](const std::string& text) {
+          options.parameters[name] = text;
+        },
+        help);
+  }
+  command->footer(kFooter);
+}
+
+void addValidation(CLI::App& model, ValidateModelOptions& options) {
+  using Form = ValidateModelOptions::Form;
+  CLI::App* command =
+      model.add_subcommand("validation", "Validation figures of a model, as Vega-Lite");
+  command->add_option("file", options.path, "An .osim document")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command->add_option("figure", options.figure, "Name of the figure; left out, the list of them");
+  command->add_option("--seed", options.seed, "Of random draws")->capture_default_str();
+  const std::map<std::string, Form> forms = {
+      {"vega-lite", Form::kVegaLite}, {"data", Form::kData}, {"svg", Form::kSvg}};
+  command->add_option("--format", options.form, "vega-lite, data or svg")
+      ->transform(CLI::CheckedTransformer(forms));
+  command->footer(kFooter);
+}
+
+struct ModelFlags {
+  ModelOptions show;
+  CalibrateOptions calibrate;
+  ValidateModelOptions validation;
+};
+
+void addModel(CLI::App& app, ModelFlags& flags) {
+  ModelOptions& options = flags.show;
   CLI::App* command = app.add_subcommand("model", "Show what is in a model document");
   command->add_option("file", options.path, "An .osim document; the shipped model if left out")
       ->check(CLI::ExistingFile);
   command->add_flag_callback(
       "--json", [&options] { options.report = ModelReport::kJson; }, "As JSON");
   addModels(*command, options.models);
-  addCalibrate(*command, calibrate);
+  addCalibrate(*command, flags.calibrate);
+  addValidation(*command, flags.validation);
   command->footer(kFooter);
+}
+
+Command chooseModel(const CLI::App& model, const ModelFlags& flags) {
+  if (model.got_subcommand("calibrate")) {
+    return flags.calibrate;
+  }
+  return model.got_subcommand("validation") ? Command(flags.validation) : Command(flags.show);
 }
 
 void addSample(CLI::App& app, SampleOptionsOnDisk& options) {
@@ -237,8 +327,8 @@ PrintAndExit explain(const CLI::App& app, const CLI::Error& error) {
 struct Parsed {
   ServeFlags serve;
   RunOptions run;
-  ModelOptions model;
-  CalibrateOptions calibrate;
+  ModelFlags model;
+  RenderOptions render;
   SampleOptionsOnDisk sample;
   BackupOptions backup;
   RestoreOptions restore;
@@ -259,14 +349,14 @@ Command choose(const CLI::App& app, Parsed& parsed) {
     parsed.child.task = children.at(chosen);
     return parsed.child;
   }
-  if (chosen == "model" && app.get_subcommand("model")->got_subcommand("calibrate")) {
-    return parsed.calibrate;
+  if (chosen == "model") {
+    return chooseModel(*app.get_subcommand("model"), parsed.model);
   }
   if (chosen == "keys") {
     return makeKeysOptions(app, parsed.keys);
   }
   const std::map<std::string, Command> others = {{"run", parsed.run},
-                                                 {"model", parsed.model},
+                                                 {"render", parsed.render},
                                                  {"sample", parsed.sample},
                                                  {"backup", parsed.backup},
                                                  {"restore", parsed.restore},
@@ -283,7 +373,8 @@ Command parseCommandLine(const std::vector<std::string>& arguments) {
   app.footer(kFooter);
   addServe(app, parsed.serve);
   addRun(app, parsed.run);
-  addModel(app, parsed.model, parsed.calibrate);
+  addModel(app, parsed.model);
+  addRender(app, parsed.render);
   addSample(app, parsed.sample);
   addBackup(app, parsed.backup, parsed.restore);
   addKeys(app, parsed.keys);

@@ -8,7 +8,9 @@
 #include "service/config.h"
 #include "service/keys_command.h"
 #include "service/model_command.h"
+#include "service/render_command.h"
 #include "service/solve_command.h"
+#include "service/validation_command.h"
 
 namespace gaitmill {
 
@@ -23,10 +25,11 @@ struct RunOptions {
   std::string emg;
   std::string model;
   std::string coordinates;
-  double mass = 0;     ///< [kg]
-  double height = 0;   ///< [m]
-  std::string out;     ///< folder, created if absent
-  std::string models;  ///< folder
+  double mass = 0;       ///< [kg]
+  double height = 0;     ///< [m]
+  std::string out;       ///< folder, created if absent
+  std::string geometry;  ///< folder of meshes for the report's images; empty = stylised bones
+  std::string models;    ///< folder
 };
 
 /// `gaitmill model`: what is in a model document.
@@ -63,6 +66,8 @@ using Command = std::variant<ServeOptions,
                              RunOptions,
                              ModelOptions,
                              CalibrateOptions,
+                             ValidateModelOptions,
+                             RenderOptions,
                              SampleOptionsOnDisk,
                              BackupOptions,
                              RestoreOptions,

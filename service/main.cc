@@ -8,6 +8,7 @@
 #include "service/model_command.h"
 #include "service/models_folder.h"
 #include "service/observe/log.h"
+#include "service/product_drawing.h"
 #include "service/product_pipeline.h"
 #include "service/run_command.h"
 #include "service/sample_command.h"
@@ -67,6 +68,16 @@ int execute(const ModelOptions& options) {
 int execute(CalibrateOptions options) {
   options.path = findModel(options.path, options.models);
   std::cout << calibrateModel(options);
+  return kExitSuccess;
+}
+
+int execute(const ValidateModelOptions& options) {
+  std::cout << describeValidation(options);
+  return kExitSuccess;
+}
+
+int execute(const RenderOptions& options) {
+  renderFiles(options, makeProductDrawing(options.geometry), std::cout);
   return kExitSuccess;
 }
 

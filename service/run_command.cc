@@ -148,7 +148,8 @@ void runOnFiles(const RunOptions& options,
     progress << "warning: " << sentence << '\n';
   };
   const ReportProvenance provenance = describeRun(trial, settings, options);
-  for (const auto& [name, bytes] : makeRunViews(result, provenance, functions, warn)) {
+  for (const auto& [name, bytes] :
+       makeRunViews(result, provenance, functions, options.geometry, warn)) {
     writeFile(options.out + "/" + name, bytes);
   }
   out << formatSummary(result.summary_json);

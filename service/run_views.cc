@@ -7,8 +7,8 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "service/draw_task.h"
-#include "service/memory_results.h"
 #include "service/picture_data.h"
+#include "service/run_results.h"
 
 namespace gaitmill {
 
@@ -17,9 +17,10 @@ namespace {
 using Files = std::map<std::string, std::string>;
 
 // @throws Error of the painter
-void paintInstants(const MemoryResults& results,
+void paintInstants(const RunResults& results,
                    const PipelineResult& result,
                    const PipelineFunctions& functions,
+                   const std::string& geometry,
                    ReportContent& content,
                    Files& files) {
   const auto model = result.files.find(kMotionModel);
@@ -30,7 +31,7 @@ void paintInstants(const MemoryResults& results,
   data.model_name = kMotionModel;
   data.picture = collectPictureData(results, MuscleColor::kActivation);
   data.picture.model_osim = model->second;
-  const Drawing draw = functions.make_drawing("");
+  const Drawing draw = functions.make_drawing(geometry);
   for (const ReportInstant& instant : functions.figures.find_instants(results)) {
     DrawTask task;
     task.start = instant.time;
@@ -49,8 +50,9 @@ std::map<std::string, std::string> makeRunViews(
     const PipelineResult& result,
     const ReportProvenance& provenance,
     const PipelineFunctions& functions,
+    const std::string& geometry,
     const std::function<void(const std::string&)>& warn) {
-  const MemoryResults results(result);
+  const RunResults results(result);
   Files files;
   ReportContent content;
   content.provenance = provenance;
@@ -60,7 +62,7 @@ std::map<std::string, std::string> makeRunViews(
     files["plots/" + info.name + ".vl.json"] = api::renderVegaLite(content.figures.back());
   }
   try {
-    paintInstants(results, result, functions, content, files);
+    paintInstants(results, result, functions, geometry, content, files);
   } catch (const Error& error) {
     warn("the report has no images: " + error.message());
   }

@@ -13,11 +13,13 @@ namespace gaitmill {
 /// What people look at of a run that has just ended, as files by name: plots/<figure>.vl.json
 /// (Vega-Lite), report.html and the images in it. Without a renderer that works the images are left
 /// out.
-/// @param warn  takes a sentence on what is left out
+/// @param geometry  folder of meshes; empty = stylised bones
+/// @param warn      takes a sentence on what is left out
 std::map<std::string, std::string> makeRunViews(
     const PipelineResult& result,
     const ReportProvenance& provenance,
     const PipelineFunctions& functions,
+    const std::string& geometry,
     const std::function<void(const std::string&)>& warn);
 
 /// "Right heel strike" to "right_heel_strike.png".

@@ -8,10 +8,10 @@
 namespace gaitmill {
 
 /// The results of a run that has just ended.
-class MemoryResults : public ResultSource {
+class RunResults : public ResultSource {
  public:
   /// @param result  outlives this
-  explicit MemoryResults(const PipelineResult& result) : result_(result) {}
+  explicit RunResults(const PipelineResult& result) : result_(result) {}
 
   bool has(const std::string& table, Axis axis) const override;
   const TimeSeries& table(const std::string& table, Axis axis) const override;

@@ -1,14 +1,14 @@
-#include "service/memory_results.h"
+#include "service/run_results.h"
 
 #include "core/base/error.h"
 
 namespace gaitmill {
 
-bool MemoryResults::has(const std::string& table, Axis axis) const {
+bool RunResults::has(const std::string& table, Axis axis) const {
   return tablesOf(axis).count(table) > 0;
 }
 
-const TimeSeries& MemoryResults::table(const std::string& table, Axis axis) const {
+const TimeSeries& RunResults::table(const std::string& table, Axis axis) const {
   const auto found = tablesOf(axis).find(table);
   require(found != tablesOf(axis).end(),
           ErrorCode::kResultNotFound,
@@ -17,7 +17,7 @@ const TimeSeries& MemoryResults::table(const std::string& table, Axis axis) cons
   return found->second;
 }
 
-const std::map<std::string, TimeSeries>& MemoryResults::tablesOf(Axis axis) const {
+const std::map<std::string, TimeSeries>& RunResults::tablesOf(Axis axis) const {
   return axis == Axis::kTime ? result_.tables : result_.cycle_tables;
 }
 
