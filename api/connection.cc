@@ -326,7 +326,8 @@ void Connection::dispatch() {
     exchange_->request.body = std::exchange(body_, nullptr)->finish();
   }
   enter(Phase::kHandling);
-  const bool is_heavy = admission_.body_bytes > context_.options.spool_above;
+  const bool is_heavy =
+      exchange_->route->is_slow || admission_.body_bytes > context_.options.spool_above;
   if (!ask(is_heavy ? HandlerPool::Lane::kHeavy : HandlerPool::Lane::kQuick)) {
     refuse(Error(ErrorCode::kRequestBusy,
                  "more requests are waiting than the service can answer soon",

@@ -30,6 +30,7 @@ struct Route {
   std::function<HttpReply(HttpRequest&)> handle;
   Scope scope = Scope::kNone;   ///< of the key, where the service has keys; kNone = open to all
   std::uint64_t max_bytes = 0;  ///< [bytes] of the body; 0 = the server's limit for its kind
+  bool is_slow = false;         ///< takes its time: half of the threads stay free of such requests
 };
 
 struct RouteMatch {

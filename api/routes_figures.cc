@@ -151,20 +151,22 @@ HttpReply findValidation(ValidationPort& validations, HttpRequest& request) {
 }  // namespace
 
 Routes makeFigureRoutes(const Ports& ports) {
-  const auto get = [](const std::string& pattern, Handler handler) {
-    return Route{"GET", pattern, BodyKind::kNone, std::move(handler), Scope::kRead};
+  const auto get = [](const std::string& pattern, Handler handler, bool is_slow = false) {
+    return Route{"GET", pattern, BodyKind::kNone, std::move(handler), Scope::kRead, 0, is_slow};
   };
   const std::string plots = "/v1/jobs/{id}/plots";
   const std::string validation = "/v1/models/{id}/validation";
   return {
       get(plots, on(ports.figures, listFigures)),
       get(plots + "/{name}", on(ports.figures, findFigure, {"format", "data"})),
-      get("/v1/compare", on(ports.comparisons, compareJobs, {"jobs"})),
+      get("/v1/compare", on(ports.comparisons, compareJobs, {"jobs"}), true),
       get("/v1/compare/plots/{name}",
-          on(ports.comparisons, findOverlay, {"jobs", "format", "data"})),
-      get(validation, on(ports.validations, listValidations)),
+          on(ports.comparisons, findOverlay, {"jobs", "format", "data"}),
+          true),
+      get(validation, on(ports.validations, listValidations), true),
       get(validation + "/{name}",
-          on(ports.validations, findValidation, {"seed", "format", "data"})),
+          on(ports.validations, findValidation, {"seed", "format", "data"}),
+          true),
   };
 }
 

@@ -60,7 +60,7 @@ Routes makeImageRoutes(const Ports& ports) {
         withQuery(imageParameters(kind), [&images = ports.images, kind](HttpRequest& request) {
           return paint(images, request, kind);
         });
-    return Route{"GET", job + "/images/" + name, BodyKind::kNone, handle, Scope::kRead};
+    return Route{"GET", job + "/images/" + name, BodyKind::kNone, handle, Scope::kRead, 0, true};
   };
   ReportPort& reports = ports.reports;
   return {
@@ -68,7 +68,13 @@ Routes makeImageRoutes(const Ports& ports) {
       painted("strip.png", ImageKind::kStrip),
       painted("animation.webp", ImageKind::kAnimation),
       {"GET", job + "/quality", BodyKind::kNone, on(reports, findQuality), Scope::kRead},
-      {"GET", job + "/report.html", BodyKind::kNone, on(reports, findReport), Scope::kRead},
+      {"GET",
+       job + "/report.html",
+       BodyKind::kNone,
+       on(reports, findReport),
+       Scope::kRead,
+       0,
+       true},
   };
 }
 

@@ -136,7 +136,13 @@ Routes makeResultRoutes(const Ports& ports) {
   return {
       {"GET", job + "/results", BodyKind::kNone, on(results, listResults), Scope::kRead},
       {"GET", job + "/results/{name}", BodyKind::kNone, find, Scope::kRead},
-      {"GET", job + "/results.zip", BodyKind::kNone, on(results, findArchive), Scope::kRead},
+      {"GET",
+       job + "/results.zip",
+       BodyKind::kNone,
+       on(results, findArchive),
+       Scope::kRead,
+       0,
+       true},
       {"GET", job + "/files", BodyKind::kNone, on(results, listFiles), Scope::kRead},
       {"GET", job + "/files/{name}", BodyKind::kNone, on(results, findFile), Scope::kRead},
   };

@@ -1,12 +1,11 @@
 #include "service/draw_task.h"
 
-#include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "api/dto/object_reader.h"
 #include "core/base/error.h"
 #include "service/process/messages.h"
 #include "service/storage/table_codec.h"
@@ -82,14 +81,29 @@ json encodeSeries(const Series& series) {
           {"group", series.group}};
 }
 
+int decodeInteger(const json& value) {
+  require(value.is_number_integer(), ErrorCode::kJobCrashed, "a whole number is none");
+  return static_cast<int>(value.get<std::int64_t>());
+}
+
 // An enumerator that travelled as its number.
 template <class Enum>
 Enum decodeEnum(const json& value, Enum last) {
-  const int number = value.get<int>();
+  const int number = decodeInteger(value);
   require(number >= 0 && number <= static_cast<int>(last),
           ErrorCode::kJobCrashed,
           "a figure has a number that means nothing");
   return static_cast<Enum>(number);
+}
+
+// JSON has no NaN: what was not measured is null.
+std::vector<double> decodeNumbers(const json& document) {
+  std::vector<double> numbers;
+  for (const json& number : document) {
+    numbers.push_back(number.is_null() ? std::numeric_limits<double>::quiet_NaN()
+                                       : number.get<double>());
+  }
+  return numbers;
 }
 
 Series decodeSeries(const json& document) {
@@ -97,11 +111,11 @@ Series decodeSeries(const json& document) {
   document.at("name").get_to(series.name);
   series.role = decodeEnum(document.at("role"), SeriesRole::kEmg);
   series.mark = decodeEnum(document.at("mark"), SeriesMark::kBars);
-  document.at("x").get_to(series.x);
-  document.at("y").get_to(series.y);
-  document.at("low").get_to(series.low);
+  series.x = decodeNumbers(document.at("x"));
+  series.y = decodeNumbers(document.at("y"));
+  series.low = decodeNumbers(document.at("low"));
   document.at("categories").get_to(series.categories);
-  document.at("group").get_to(series.group);
+  series.group = decodeInteger(document.at("group"));
   return series;
 }
 
@@ -159,7 +173,7 @@ Figure decodeFigure(const json& document) {
   document.at("name").get_to(figure.name);
   document.at("title").get_to(figure.title);
   document.at("caption").get_to(figure.caption);
-  document.at("columns").get_to(figure.columns);
+  figure.columns = decodeInteger(document.at("columns"));
   for (const json& panel : document.at("panels")) {
     figure.panels.push_back(decodePanel(panel));
   }
@@ -234,20 +248,20 @@ std::string encodeFigures(const std::vector<Figure>& figures) {
   for (const Figure& figure : figures) {
     document.push_back(encodeFigure(figure));
   }
-  // CBOR keeps NaN and every digit.
-  const std::vector<std::uint8_t> bytes = json::to_cbor(document);
-  return {bytes.begin(), bytes.end()};
+  return document.dump();
 }
 
-std::vector<Figure> decodeFigures(const std::string& bytes) {
+std::vector<Figure> decodeFigures(const std::string& text) {
   try {
     std::vector<Figure> figures;
-    for (const json& figure : json::from_cbor(bytes)) {
+    for (const json& figure : api::parseJson(text, "figures")) {
       figures.push_back(decodeFigure(figure));
     }
     return figures;
   } catch (const json::exception& error) {
     throw Error(ErrorCode::kJobCrashed, std::string("these are no figures: ") + error.what());
+  } catch (const Error& error) {
+    throw Error(ErrorCode::kJobCrashed, "these are no figures: " + error.message());
   }
 }
 

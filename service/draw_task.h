@@ -46,10 +46,11 @@ std::map<std::string, std::string> encodeDrawData(const DrawData& data);
 /// @throws Error kStorage if a table is none
 DrawData decodeDrawData(std::map<std::string, std::string> parts);
 
-/// Figures as bytes and back, every double bit by bit. Of a FigureInfo the panels are none.
+/// Figures as JSON text and back, every double bit by bit; what is not finite comes back as NaN. Of
+/// a FigureInfo the panels are none.
 std::string encodeFigures(const std::vector<Figure>& figures);
-/// @throws Error kJobCrashed if these are not the bytes of figures
-std::vector<Figure> decodeFigures(const std::string& bytes);
-inline constexpr const char* kFiguresType = "application/cbor";
+/// @throws Error kJobCrashed if the text is no figures
+std::vector<Figure> decodeFigures(const std::string& text);
+inline constexpr const char* kFiguresType = "application/json";
 
 }  // namespace gaitmill
