@@ -15,6 +15,7 @@
 #include "api/http.h"
 #include "api/identity.h"
 #include "core/data/time_series.h"
+#include "core/figure/comparison.h"
 #include "core/figure/figure.h"
 
 namespace gaitmill::api {
@@ -166,8 +167,8 @@ class ReportPort {
 
 /// Differences between jobs.
 struct ComparisonView {
-  std::string tables_json;  ///< JSON array
-  std::vector<FigureInfo> figures;
+  Comparison comparison;
+  std::vector<FigureInfo> figures;  ///< that all of the jobs have
 };
 
 /// Jobs held against the first of them. At least two ids, each once.

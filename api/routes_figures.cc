@@ -52,7 +52,9 @@ std::string renderFigure(const Figure& figure, const FigureForm& form) {
   if (form.only_data) {
     return renderFigureData(figure);
   }
-  return form.format == ResultFormat::kSvg ? renderSvg(figure) : renderVegaLite(figure);
+  SvgOptions options;
+  options.heading = true;
+  return form.format == ResultFormat::kSvg ? renderSvg(figure, options) : renderVegaLite(figure);
 }
 
 // @param tag  of what the figure is made from
@@ -109,7 +111,7 @@ Names readJobs(const HttpRequest& request) {
 HttpReply compareJobs(ComparePort& comparisons, HttpRequest& request) {
   const Names ids = readJobs(request);
   const ComparisonView found = comparisons.compare(request.identity, ids);
-  return replyTagged(renderComparison(ids, found.tables_json, found.figures));
+  return replyTagged(renderComparisonPage(ids, found.comparison, found.figures));
 }
 
 HttpReply findOverlay(ComparePort& comparisons, HttpRequest& request) {

@@ -26,7 +26,7 @@ class CompareService : public api::ComparePort {
  private:
   struct Opened {
     std::vector<std::unique_ptr<StoredResults>> results;
-    std::vector<ComparedJob> jobs;
+    NamedResults jobs;
   };
   Opened open(const api::Identity& who, const std::vector<std::string>& job_ids);
 

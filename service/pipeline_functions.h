@@ -6,6 +6,7 @@
 
 #include "api/dto/result.h"
 #include "api/dto/trial.h"
+#include "core/figure/comparison.h"
 #include "core/figure/figure.h"
 #include "core/figure/result_source.h"
 #include "core/pipeline/pipeline.h"
@@ -32,23 +33,17 @@ using DocumentReader = std::function<std::string(const InputFile& document)>;
 using DrawingMaker = std::function<Drawing(const std::string& geometry)>;
 using StoEncoder = std::function<std::string(const TimeSeries& table, api::AngleUnit angles)>;
 
-/// A job that is held against others.
-struct ComparedJob {
-  std::string name;  ///< in legends
-  const ResultSource* results = nullptr;
-};
-using ComparedJobs = std::vector<ComparedJob>;
+using NamedResults = std::vector<NamedResult>;
 
 /// What is shown of results besides images.
 struct FigureFunctions {
   std::function<std::vector<FigureInfo>(const ResultSource& results)> list;
   /// @throws Error kFigureNotFound
   std::function<Figure(const ResultSource& results, const std::string& name)> make;
-  /// Differences to the first job, a JSON array.
-  std::function<std::string(const ComparedJobs& jobs)> compare;
-  std::function<std::vector<FigureInfo>(const ComparedJobs& jobs)> list_overlays;
+  std::function<Comparison(const NamedResults& jobs)> compare;
+  std::function<std::vector<FigureInfo>(const NamedResults& jobs)> list_overlays;
   /// @throws Error kFigureNotFound
-  std::function<Figure(const ComparedJobs& jobs, const std::string& name)> make_overlay;
+  std::function<Figure(const NamedResults& jobs, const std::string& name)> make_overlay;
   std::function<std::vector<ReportInstant>(const ResultSource& results)> find_instants;
   std::function<std::string(const ReportContent& content)> render_report;
 };

@@ -1,5 +1,6 @@
 #include "service/product_pipeline.h"
 
+#include "core/figure/comparison.h"
 #include "core/figure/job_figures.h"
 #include "core/io/table_writer.h"
 #include "core/report/report.h"
@@ -21,6 +22,9 @@ FigureFunctions makeFigures() {
   FigureFunctions figures;
   figures.list = listFigures;
   figures.make = makeFigure;
+  figures.compare = compareResults;
+  figures.list_overlays = listCommonFigures;
+  figures.make_overlay = overlayFigures;
   figures.find_instants = findReportInstants;
   figures.render_report = renderReport;
   return figures;

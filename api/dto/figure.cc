@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "api/dto/comparison.h"
 #include "api/dto/object_reader.h"
 #include "api/dto/page.h"
 
@@ -23,9 +24,9 @@ std::string renderFigureList(const std::vector<FigureInfo>& figures,
   return renderPage(items, "");
 }
 
-std::string renderComparison(const std::vector<std::string>& job_ids,
-                             const std::string& tables_json,
-                             const std::vector<FigureInfo>& figures) {
+std::string renderComparisonPage(const std::vector<std::string>& job_ids,
+                                 const Comparison& comparison,
+                                 const std::vector<FigureInfo>& figures) {
   std::string query = "?jobs=";
   for (const std::string& id : job_ids) {
     query += (id == job_ids.front() ? "" : ",") + id;
@@ -35,8 +36,9 @@ std::string renderComparison(const std::vector<std::string>& job_ids,
     plots += (plots.empty() ? "" : ",") +
              renderFigureInfo(info, "/v1/compare/plots/" + info.name + query);
   }
-  return "{\"jobs\":" + dumpJson(job_ids) + ",\"tables\":" + tables_json + ",\"plots\":[" + plots +
-         "]}";
+  // Two objects become one.
+  return "{\"ids\":" + dumpJson(job_ids) + ",\"plots\":[" + plots + "]," +
+         renderComparison(comparison).substr(1);
 }
 
 }  // namespace gaitmill::api

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/figure/comparison.h"
 #include "core/figure/figure.h"
 
 namespace gaitmill::api {
@@ -18,11 +19,10 @@ std::string renderFigureList(const std::vector<FigureInfo>& figures,
                              const std::string& folder,
                              const std::string& query = "");
 
-/// {"jobs": [id, …], "tables": […], "plots": […]}: jobs held against the first of them.
-/// @param tables_json  JSON array of differences
-/// @param figures      overlays of these jobs
-std::string renderComparison(const std::vector<std::string>& job_ids,
-                             const std::string& tables_json,
-                             const std::vector<FigureInfo>& figures);
+/// A comparison as by renderComparison(), with "ids" of the jobs and "plots", where their overlays
+/// are.
+std::string renderComparisonPage(const std::vector<std::string>& job_ids,
+                                 const Comparison& comparison,
+                                 const std::vector<FigureInfo>& figures);
 
 }  // namespace gaitmill::api

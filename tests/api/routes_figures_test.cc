@@ -78,7 +78,10 @@ TEST_F(FigureRoutesTest, WhatTheClientHasIsNotMadeAgain) {
 
 TEST_F(FigureRoutesTest, ComparisonNamesTheJobsAndItsPlots) {
   const json comparison = json::parse(get("/v1/compare", {{"jobs", both_}}).body);
-  EXPECT_EQ(comparison["jobs"], (json{kJobId, kOtherJobId}));
+  EXPECT_EQ(comparison["ids"], (json{kJobId, kOtherJobId}));
+  EXPECT_EQ(comparison["jobs"], (json{"first", "second"}));
+  EXPECT_EQ(comparison["tables"][0]["columns"][0]["differences"][0]["largest"], -1.5);
+  EXPECT_TRUE(comparison["quality"][0]["values"][1].is_null());
   EXPECT_EQ(comparison["plots"][0]["url"], "/v1/compare/plots/angles?jobs=" + both_);
   EXPECT_TRUE(comparison["tables"].is_array());
   EXPECT_EQ(stub_.record.calls.back(), std::string("compare ") + kJobId + " and " + kOtherJobId);

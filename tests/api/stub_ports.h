@@ -407,7 +407,12 @@ class StubComparisons : public api::ComparePort {
   api::ComparisonView compare(const api::Identity& who,
                               const std::vector<std::string>& ids) override {
     record_.note(who, "compare " + ids.front() + " and " + ids.back());
-    return {"[]", listStubFigures()};
+    Comparison comparison;
+    comparison.labels = {"first", "second"};
+    comparison.tables = {
+        {"moments", {{"knee_angle_r_moment", "N.m", 50.0, {{0.5, -1.5, 62.0, 51.0}}}}}};
+    comparison.quality = {{"markers.max_rms_m", {0.01, std::numeric_limits<double>::quiet_NaN()}}};
+    return {comparison, listStubFigures()};
   }
   Figure find(const api::Identity& who,
               const std::vector<std::string>& ids,

@@ -209,17 +209,17 @@ FigureFunctions makeFakeFigures() {
   FigureFunctions figures;
   figures.list = listFakeFigures;
   figures.make = makeFakeFigure;
-  figures.compare = [](const ComparedJobs& jobs) {
-    json names = json::array();
-    for (const ComparedJob& job : jobs) {
-      names.push_back({{"job", job.name}});
+  figures.compare = [](const NamedResults& jobs) {
+    Comparison comparison;
+    for (const NamedResult& job : jobs) {
+      comparison.labels.push_back(job.label);
     }
-    return names.dump();
+    return comparison;
   };
-  figures.list_overlays = [](const ComparedJobs& jobs) {
+  figures.list_overlays = [](const NamedResults& jobs) {
     return listFakeFigures(*jobs.front().results);
   };
-  figures.make_overlay = [](const ComparedJobs& jobs, const std::string& name) {
+  figures.make_overlay = [](const NamedResults& jobs, const std::string& name) {
     return makeFakeFigure(*jobs.front().results, name);
   };
   figures.find_instants = [](const ResultSource& results) {

@@ -163,7 +163,7 @@ TEST_F(ViewServicesTest, ComparisonTakesFinishedJobsInTheirOrder) {
   const std::string first = fixture_.addFinishedJob(who_);
   const std::string second = fixture_.addFinishedJob(who_, R"({"steps": 3})");
   const api::ComparisonView view = ports_.comparisons.compare(who_, {second, first});
-  EXPECT_EQ(json::parse(view.tables_json), (json{{{"job", second}}, {{"job", first}}}));
+  EXPECT_EQ(view.comparison.labels, (std::vector<std::string>{second, first}));
   EXPECT_EQ(namesOf(view.figures), (std::vector<std::string>{"moments", "activations"}));
   EXPECT_EQ(ports_.comparisons.find(who_, {first, second}, "moments").name, "moments");
   EXPECT_NE(ports_.comparisons.findTag(who_, {first, second}),
