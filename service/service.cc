@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
+#include <system_error>
 
 #include "api/routes.h"
 #include "core/base/error.h"
@@ -182,6 +184,7 @@ Service::Service(const ServeConfig& config,
             return load.parked + load.event_streams > 0;
           }) {
   requireKeys();
+  requireGeometry();
   declareJobMetrics(metrics_);
   addProcessMetrics(metrics_);
   status_.setLoad([this] { return server_.load(); });
@@ -222,6 +225,14 @@ void Service::requireKeys() {
           "'gaitmill keys create' to listen on " +
               config_.host,
           {"", 0, 0, "host"});
+}
+
+void Service::requireGeometry() const {
+  std::error_code absent;
+  require(config_.geometry.empty() || std::filesystem::is_directory(config_.geometry, absent),
+          ErrorCode::kConfig,
+          "'" + config_.geometry + "' is no folder",
+          {"", 0, 0, "geometry"});
 }
 
 int Service::start() {

@@ -25,7 +25,8 @@ class Service {
  public:
   /// Opens the database and frees the jobs of a service that was killed.
   /// @param program  that children run as "<program> solve …"
-  /// @throws Error kStorage…; kConfig if others than this machine could reach a service without keys
+  /// @throws Error kStorage…; kConfig if others than this machine could reach a service without keys,
+  ///         and for a geometry folder that is not there
   Service(const ServeConfig& config,
           const PipelineFunctions& functions,
           const std::string& program = kThisProgram);
@@ -45,6 +46,7 @@ class Service {
  private:
   api::ServerOptions makeHookedServerOptions(const ServeConfig& config);
   void requireKeys();
+  void requireGeometry() const;
   void notify(const JobChange& change);
   void stopRequests();
 

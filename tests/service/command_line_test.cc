@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 
+#include <map>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -56,6 +57,35 @@ TEST(CommandLine, RunTakesFilesAndStage) {
   EXPECT_EQ(run.emg, "");
 }
 
+TEST(CommandLine, RenderTakesItsParametersAsTheyAre) {
+  const auto render = parseAs<RenderOptions>({"render",
+                                              "out.png",
+                                              "--model",
+                                              "README.md",
+                                              "--motion",
+                                              "README.md",
+                                              "--percent",
+                                              "50",
+                                              "--slow-down",
+                                              "4",
+                                              "--view",
+                                              "30,10"});
+  EXPECT_EQ(render.out, "out.png");
+  EXPECT_EQ(render.motion, "README.md");
+  EXPECT_EQ(render.parameters,
+            (std::map<std::string, std::string>{
+                {"percent", "50"}, {"slow_down", "4"}, {"view", "30,10"}}));
+}
+
+TEST(CommandLine, ValidationTakesModelAndFigure) {
+  const auto validation = parseAs<ValidateModelOptions>(
+      {"model", "validation", "README.md", "curves", "--seed", "7", "--format", "svg"});
+  EXPECT_EQ(validation.path, "README.md");
+  EXPECT_EQ(validation.figure, "curves");
+  EXPECT_EQ(validation.seed, 7U);
+  EXPECT_EQ(validation.form, ValidateModelOptions::Form::kSvg);
+}
+
 TEST(CommandLine, ModelAndSampleHaveTheirFlags) {
   EXPECT_EQ(parseAs<ModelOptions>({"model", "--json"}).report, ModelReport::kJson);
   EXPECT_EQ(parseAs<ModelOptions>({"model", "CMakeLists.txt"}).path, "CMakeLists.txt");
@@ -105,6 +135,8 @@ TEST(CommandLine, HelpIsEverywhereAndStatesTheExitCodes) {
                                                     {"run", "--help"},
                                                     {"model", "--help"},
                                                     {"model", "calibrate", "--help"},
+                                                    {"model", "validation", "--help"},
+                                                    {"render", "--help"},
                                                     {"sample", "--help"},
                                                     {"version", "--help"}}) {
     const auto help = parseAs<PrintAndExit>(arguments);

@@ -47,6 +47,29 @@ TEST_F(RunCommandTest, WritesFilesAndSaysWhatHappens) {
   EXPECT_NE(out_.str().find("moments.ankle_angle_r.rmse_nm"), std::string::npos);
 }
 
+TEST_F(RunCommandTest, LeavesReportPlotsAndImages) {
+  run();
+  EXPECT_NE(read("plots/moments.vl.json").find("$schema"), std::string::npos);
+  EXPECT_NE(read("images/right_toe_off.png").find("picture of 3 rows at 1.00"), std::string::npos);
+  const std::string report = read("report.html");
+  EXPECT_NE(report.find("The moments"), std::string::npos);
+  EXPECT_NE(report.find("Right heel strike, 0.00 s"), std::string::npos);
+  EXPECT_NE(report.find("markers "), std::string::npos) << "its input with its hash";
+}
+
+TEST_F(RunCommandTest, RendererThatFailsCostsTheImagesOnly) {
+  PipelineFunctions functions = makeFakePipeline();
+  functions.make_drawing = [](const std::string&) {
+    return [](const DrawTask&, const DrawData&) -> Picture {
+      throw Error(ErrorCode::kRender, "no renderer");
+    };
+  };
+  runOnFiles(options_, functions, out_, progress_);
+  EXPECT_NE(progress_.str().find("warning: the report has no images: no renderer"),
+            std::string::npos);
+  EXPECT_NE(read("report.html"), "");
+}
+
 TEST_F(RunCommandTest, TakesASettingsFileAndAFirstStage) {
   folder_.write("mine.json", R"({"fail_at": "so"})");
   options_.settings = folder_ / "mine.json";
