@@ -58,10 +58,11 @@ std::string ReportService::findQuality(const api::Identity& who, const std::stri
   const json figures = summary.value("quality", json::object());
   quality["reasons"] = figures.value("reasons", json::array());
   quality["checks"] = figures.value("checks", json::array());
+  quality["stages"] = figures.value("stages", json::object());
   quality["figures"] = figures;
-  quality["figures"].erase("reasons");
-  quality["figures"].erase("checks");
-  quality["figures"].erase("verdict");
+  for (const char* name : {"verdict", "reasons", "checks", "stages"}) {
+    quality["figures"].erase(name);
+  }
   return api::dumpJson(quality);
 }
 

@@ -386,7 +386,7 @@ class StubReports : public api::ReportPort {
     record_.note(who, "find verdict " + job_id);
     return std::string(R"({"job":")") + job_id + R"(","verdict":"pass","provenance":")" +
            std::string(64, 'd') +
-           R"(","warnings":[],"reasons":[],"checks":[],"figures":{},"report":"/v1/r"})";
+           R"(","warnings":[],"reasons":[],"stages":{},"checks":[],"figures":{},"report":"/v1/r"})";
   }
   std::string render(const api::Identity& who, const std::string& job_id) override {
     record_.note(who, "render report " + job_id);

@@ -159,7 +159,7 @@ TEST_F(DrawProcessTest, MoreThanMayWaitAreToldToComeBack) {
     served += code == ErrorCode::kCancelled ? 1 : 0;
   }
   EXPECT_GE(served, 2);
-  EXPECT_LE(served, 4);
+  EXPECT_LT(served, 8);
 }
 
 TEST_F(DrawProcessTest, StopAnswersWhoWaits) {
