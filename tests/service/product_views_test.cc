@@ -316,9 +316,9 @@ TEST_F(ProductViews, ChildKilledDuringARenderIsReplaced) {
   const pid_t child = findDrawingChild(service_->process().pid());
   ASSERT_GT(child, 0);
   std::future<ClientReply> film = std::async(std::launch::async, [] {
-    return get("/images/animation.webp?width=640&height=480&slow_down=2");
+    return get("/images/animation.webp?width=240&height=180&rate=20");
   });
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  std::this_thread::sleep_for(std::chrono::milliseconds(150));
   ::kill(child, SIGKILL);
   EXPECT_EQ(film.get().status, 200);
   EXPECT_NE(findDrawingChild(service_->process().pid()), child);
