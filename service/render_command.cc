@@ -12,6 +12,7 @@
 #include "core/io/osim_reader.h"
 #include "core/io/table_reader.h"
 #include "service/image_task.h"
+#include "service/run_command.h"
 
 namespace gaitmill {
 
@@ -32,7 +33,7 @@ std::vector<std::string> valueFiles(MuscleColor color) {
     case MuscleColor::kForce:
       return {"cmc_forces.sto", "so_forces.sto"};
     case MuscleColor::kFiberLength:
-      return {"norm_fiber_lengths.sto"};
+      return {std::string(kTablesFolder) + "/norm_fiber_lengths.sto"};
     case MuscleColor::kNone:
       break;
   }
@@ -102,6 +103,12 @@ api::ImageRequest readRequest(const RenderOptions& options) {
   });
 }
 
+/// A result table of a run; without columns if it is not there.
+TimeSeries readResult(const std::string& results, const std::string& name) {
+  const std::string path = findFirst(results, {std::string(kTablesFolder) + "/" + name + ".sto"});
+  return path.empty() ? TimeSeries() : readTable(readFile(path), path).table;
+}
+
 DrawData readData(const RenderOptions& files) {
   DrawData data;
   data.model_name = files.model;
@@ -113,6 +120,10 @@ DrawData readData(const RenderOptions& files) {
   if (!files.muscle_values.empty()) {
     data.picture.muscle_values =
         readTable(readFile(files.muscle_values), files.muscle_values).table;
+  }
+  if (!files.results.empty()) {
+    data.picture.ground_reactions = readResult(files.results, "ground_reactions");
+    data.picture.markers = readResult(files.results, "measured_markers");
   }
   const fs::path summary = fs::path(files.results) / "summary.json";
   const CycleSpan cycle = !files.results.empty() && fs::is_regular_file(summary)

@@ -144,6 +144,10 @@ void runOnFiles(const RunOptions& options,
   for (const auto& [name, bytes] : result.files) {
     writeFile(options.out + "/" + name, bytes);
   }
+  for (const auto& [name, table] : result.tables) {
+    writeFile(options.out + "/" + kTablesFolder + "/" + name + ".sto",
+              functions.encode_sto(table, api::AngleUnit::kRadians));
+  }
   const auto warn = [&progress](const std::string& sentence) {
     progress << "warning: " << sentence << '\n';
   };

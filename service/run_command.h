@@ -7,8 +7,12 @@
 
 namespace gaitmill {
 
-/// Reads the files, runs the pipeline, writes each result file in one step, with plots, images and
-/// report.html (service/run_views.h), and prints a table of stages, seconds and quality figures.
+/// Folder of a run's result tables, each under its name in the API as a storage file (SI, radians).
+inline constexpr const char* kTablesFolder = "tables";
+
+/// Reads the files, runs the pipeline, writes each result file in one step, with tables, plots,
+/// images and report.html (service/run_views.h), and prints a table of stages, seconds and quality
+/// figures.
 /// @param out       the table
 /// @param progress  stages as they begin, and warnings
 /// @throws Error of the files, the settings or a stage

@@ -204,6 +204,7 @@ const std::vector<std::string>& tableNames() {
                                                  "kinematics",
                                                  "residuals",
                                                  "reserves",
+                                                 "tracking_errors",
                                                  "marker_errors",
                                                  "measured_markers",
                                                  "ground_reactions",

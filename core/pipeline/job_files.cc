@@ -138,6 +138,7 @@ void addIk(const Job& job, StageOutcome& outcome) {
 void addRra(const Job& job, StageOutcome& outcome) {
   outcome.tables["kinematics"] = job.motion;
   outcome.tables["residuals"] = pickResiduals(job.rra->passes.back().actuator_forces);
+  outcome.tables["tracking_errors"] = job.rra->passes.back().tracking_errors;
   outcome.files["rra.mot"] = writeMotion(job.motion, job.scaled);
   outcome.files["adjusted_model.osim"] = writeOsim(job.adjusted);
 }
@@ -172,6 +173,7 @@ void addCmc(const Job& job, StageOutcome& outcome) {
   outcome.tables["fiber_velocities"] = makeFiberVelocities(job);
   outcome.tables["kinematics"] = cmc.pose;
   outcome.tables["residuals"] = pickResiduals(cmc.actuator_force);
+  outcome.tables["tracking_errors"] = cmc.tracking_error;
   outcome.tables["reserves"] = pickReserves(cmc.actuator_force, cmc.options.actuators);
   if (job.id) {
     outcome.tables["moments"] = makeMoments(job);

@@ -67,10 +67,9 @@ struct PipelineResult {
   std::map<std::string, std::string> files;
   /// Tables by result name, as far as the stages that ran make them: "moments", "activations",
   /// "excitations", "forces", "fiber_lengths", "fiber_velocities", "kinematics", "residuals",
-  /// "reserves", "marker_errors", "measured_markers", "ground_reactions", "joint_powers",
-  /// "joint_reactions", "muscle_work", "emg", and those of MuscleAnalysis. Every column has its
-  /// unit
-  /// ("" = dimensionless); angles in radians (converted at the edge).
+  /// "reserves", "tracking_errors", "marker_errors", "measured_markers", "ground_reactions",
+  /// "joint_powers", "joint_reactions", "muscle_work", "emg", and those of MuscleAnalysis. Every
+  /// column has its unit ("" = dimensionless); angles in radians (converted at the edge).
   std::map<std::string, TimeSeries> tables;
   /// The same tables on 0..100 % of the gait cycle (column "percent" is `time`), where a cycle
   /// exists.

@@ -15,13 +15,15 @@ namespace {
 // there.
 constexpr double kChartWidth = 800;  // [px]
 
-// These say what the body does, not how far to trust it, and most have a panel per muscle.
+// These say what the body does, not how far to trust it, or stand in the report's tables already;
+// most have a panel per muscle.
 constexpr const char* kLeftOut[] = {"muscle_forces",
                                     "fiber_lengths",
                                     "fiber_velocities",
                                     "muscle_powers",
                                     "muscle_work",
-                                    "joint_powers"};
+                                    "joint_powers",
+                                    "tracking_errors"};
 
 bool isLeftOut(const Figure& figure) {
   return std::find(std::begin(kLeftOut), std::end(kLeftOut), figure.name) != std::end(kLeftOut);

@@ -77,6 +77,8 @@ TEST_F(RenderCommandTest, FindsWhatARunHasLeft) {
   writeFile(run + "/ik.mot", kMotion);
   writeFile(run + "/so_activations.sto",
             "a\nversion=1\nendheader\ntime\tsoleus_r\n0.5\t0.25\n1.5\t0.75\n");
+  writeFile(run + "/tables/ground_reactions.sto",
+            "a\nversion=1\nendheader\ntime\tright_fy\n0.5\t700\n1.5\tNaN\n");
   writeFile(run + "/summary.json", R"({"gait_cycle_s": [0.5, 1.0]})");
   options_.model.clear();
   options_.motion.clear();
@@ -85,6 +87,8 @@ TEST_F(RenderCommandTest, FindsWhatARunHasLeft) {
   render();
   EXPECT_EQ(task_.start, 0.75);
   EXPECT_EQ(data_.picture.muscle_values.labels, std::vector<std::string>{"soleus_r"});
+  EXPECT_EQ(data_.picture.ground_reactions.values(0, 0), 700);
+  EXPECT_EQ(data_.picture.markers.columnCount(), 0);
   ASSERT_TRUE(data_.picture.cycle);
   EXPECT_EQ(data_.picture.cycle->end, 1.0);
   options_.parameters = {{"color", "none"}};

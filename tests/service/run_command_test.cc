@@ -57,6 +57,15 @@ TEST_F(RunCommandTest, LeavesReportPlotsAndImages) {
   EXPECT_NE(report.find("markers "), std::string::npos) << "its input with its hash";
 }
 
+TEST_F(RunCommandTest, LeavesEveryTableUnderItsName) {
+  const PipelineFunctions functions = makeFakePipeline();
+  run();
+  TimeSeries moments = makeFakeTable("moments");
+  moments.values(0, 0) = 1.25;
+  EXPECT_EQ(read("tables/moments.sto"), functions.encode_sto(moments, api::AngleUnit::kRadians));
+  EXPECT_NE(read("tables/kinematics.sto"), "");
+}
+
 TEST_F(RunCommandTest, RendererThatFailsCostsTheImagesOnly) {
   PipelineFunctions functions = makeFakePipeline();
   functions.make_drawing = [](const std::string&) {

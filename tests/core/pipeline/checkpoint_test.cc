@@ -179,7 +179,7 @@ TEST(StageOutcome, HoldsWhatTheStageMakes) {
   const std::vector<std::vector<std::string>> expected = {
       {},
       {"emg", "kinematics", "marker_errors", "measured_markers"},
-      {"ground_reactions", "kinematics", "residuals"},
+      {"ground_reactions", "kinematics", "residuals", "tracking_errors"},
       {"joint_powers", "moments"},
       {"activations", "emg", "forces", "reserves"},
       {"activations",
@@ -203,7 +203,8 @@ TEST(StageOutcome, HoldsWhatTheStageMakes) {
        "pennation_angles",
        "reserves",
        "residuals",
-       "tendon_powers"}};
+       "tendon_powers",
+       "tracking_errors"}};
   const ObservedRun& whole = observeWholeSample();
   ASSERT_EQ(whole.outcomes.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
