@@ -35,7 +35,7 @@ const std::vector<FigureBuilder>& builders() {
        buildJointAngles},
       {"ground_reactions",
        "Ground reactions",
-       "Force under each foot, in newtons and in body weights.",
+       "Force under each foot, in newtons and in body weights (BW).",
        3,
        {{"ground_reactions", ""}},
        buildGroundReactions},
@@ -113,9 +113,8 @@ const std::vector<FigureBuilder>& builders() {
        buildMuscleWork},
       {"joint_reactions",
        "Joint reaction forces",
-       "Force on the distal body of a joint in that body's frame; downward compresses hip, knee "
-       "and "
-       "ankle.",
+       "Force on the distal body of a joint in that body's frame, in body weights (BW) where the "
+       "mass is known; downward compresses hip, knee and ankle.",
        4,
        {{"joint_reactions", ""}},
        buildJointReactions},

@@ -78,7 +78,7 @@ void buildJointReactions(const JobData& data, Figure& figure) {
       Panel panel = makePanel(data,
                               std::string(joint.child) + "_" + quantity.column,
                               std::string(joint.title) + ", " + quantity.title,
-                              {"Force", weight ? "body weights" : "N"});
+                              {"Force", weight ? "BW" : "N"});
       const std::string column = quantity.column;
       data.addSides(
           table, {column, column + "_r", column + "_l", ""}, weight ? 1 / *weight : 1, panel);

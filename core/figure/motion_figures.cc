@@ -171,7 +171,7 @@ void buildTrackingErrors(const JobData& data, Figure& figure) {
 void buildGroundReactions(const JobData& data, Figure& figure) {
   addReactions(data, {"Force", "N"}, 1, "", figure);
   if (const std::optional<double> weight = data.findBodyWeight()) {
-    addReactions(data, {"Force", "body weights"}, 1 / *weight, "_body_weights", figure);
+    addReactions(data, {"Force", "BW"}, 1 / *weight, "_body_weights", figure);
   }
   figure.caption += " " + data.describeAxis();
 }

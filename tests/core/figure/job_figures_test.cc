@@ -224,7 +224,7 @@ TEST(JobFigures, JointReactionsComeInBodyWeights) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Series& left = findSeries(figure.panels[i], "left", SeriesMark::kLine);
     EXPECT_NEAR(left.y[10], expected[i], tol(1e-12)) << figure.panels[i].title;
-    EXPECT_EQ(figure.panels[i].y.unit, "body weights");
+    EXPECT_EQ(figure.panels[i].y.unit, "BW");
   }
 }
 
