@@ -55,8 +55,10 @@ ChannelPair makeErrorPipe() {
 }
 
 std::vector<std::string> makeEnvironment() {
-  // The renderer would keep compiled shaders in files, which a child may not write.
-  std::vector<std::string> kept = {"LC_ALL=C.UTF-8", "MESA_SHADER_CACHE_DISABLE=true"};
+  // The renderer would keep compiled shaders in files, which a child may not write, and would take
+  // every core, which the solvers need.
+  std::vector<std::string> kept = {
+      "LC_ALL=C.UTF-8", "MESA_SHADER_CACHE_DISABLE=true", "LP_NUM_THREADS=1"};
   for (const char* name : {"PATH",
                            "GALLIUM_DRIVER",
                            "LD_LIBRARY_PATH",
