@@ -14,9 +14,9 @@
 #include "api/dto/trial.h"
 #include "api/http.h"
 #include "api/identity.h"
+#include "core/data/comparison.h"
+#include "core/data/figure.h"
 #include "core/data/time_series.h"
-#include "core/figure/comparison.h"
-#include "core/figure/figure.h"
 
 namespace gaitmill::api {
 
@@ -120,6 +120,9 @@ class ResultPort {
 /// results is equal: over the job's provenance and the code that draws, so that a client's copy is
 /// known to be good before anything is made. Letters, digits and '.', as an ETag may have them.
 
+/// How a figure is written down: as a Vega-Lite specification, as the bare series, as a drawing.
+enum class FigureForm { kVegaLite, kData, kSvg };
+
 /// Figures of a job, from the tables it has so far.
 class FigurePort {
  public:
@@ -130,6 +133,8 @@ class FigurePort {
   /// @throws Error kJobNotFound; kResultNotReady while the job may still get it; kFigureNotFound
   ///         naming the nearest
   virtual Figure find(const Identity& who, const std::string& job_id, const std::string& name) = 0;
+  /// Any figure as text.
+  virtual std::string encode(const Figure& figure, FigureForm form) = 0;
 };
 
 /// An image file in memory, shared with the cache that keeps it.

@@ -8,10 +8,8 @@
 
 #include "api/dto/figure.h"
 #include "api/dto/result.h"
-#include "api/dto/vega_lite.h"
 #include "api/route_tools.h"
 #include "api/routes.h"
-#include "core/figure/svg.h"
 
 namespace gaitmill::api {
 
@@ -24,13 +22,19 @@ const std::string& jobId(const HttpRequest& request) {
 }
 
 /// How a figure is wanted.
-struct FigureForm {
+struct WantedForm {
   ResultFormat format = ResultFormat::kJson;
   bool only_data = false;
+
+  FigureForm form() const {
+    return only_data                      ? FigureForm::kData
+           : format == ResultFormat::kSvg ? FigureForm::kSvg
+                                          : FigureForm::kVegaLite;
+  }
 };
 
-FigureForm readForm(const HttpRequest& request) {
-  FigureForm form;
+WantedForm readForm(const HttpRequest& request) {
+  WantedForm form;
   form.format =
       findResultFormat(queryOf(request, "format"),
                        request.header("accept"),
@@ -48,25 +52,19 @@ FigureForm readForm(const HttpRequest& request) {
   return form;
 }
 
-std::string renderFigure(const Figure& figure, const FigureForm& form) {
-  if (form.only_data) {
-    return renderFigureData(figure);
-  }
-  SvgOptions options;
-  options.heading = true;
-  return form.format == ResultFormat::kSvg ? renderSvg(figure, options) : renderVegaLite(figure);
-}
-
 // @param tag  of what the figure is made from
 template <class Find>
-HttpReply replyFigure(const HttpRequest& request, const std::string& tag, Find find) {
-  const FigureForm form = readForm(request);
+HttpReply replyFigure(FigurePort& figures,
+                      const HttpRequest& request,
+                      const std::string& tag,
+                      Find find) {
+  const WantedForm form = readForm(request);
   const std::string whole = "\"" + tag + "-" + request.captures.at("name") + "-" +
                             (form.only_data ? "data" : formatName(form.format)) + "\"";
   HttpReply reply = replyUnlessKnown(request, whole, [&] {
     HttpReply made;
     made.content_type = contentType(form.format);
-    made.body = renderFigure(find(), form);
+    made.body = figures.encode(find(), form.form());
     return made;
   });
   reply.headers["Vary"] = "Accept";
@@ -81,7 +79,7 @@ HttpReply listFigures(FigurePort& figures, HttpRequest& request) {
 
 HttpReply findFigure(FigurePort& figures, HttpRequest& request) {
   const std::string& id = jobId(request);
-  return replyFigure(request, figures.findTag(request.identity, id), [&] {
+  return replyFigure(figures, request, figures.findTag(request.identity, id), [&] {
     return figures.find(request.identity, id, request.captures.at("name"));
   });
 }
@@ -114,9 +112,10 @@ HttpReply compareJobs(ComparePort& comparisons, HttpRequest& request) {
   return replyTagged(renderComparisonPage(ids, found.comparison, found.figures));
 }
 
-HttpReply findOverlay(ComparePort& comparisons, HttpRequest& request) {
+HttpReply findOverlay(const Ports& ports, HttpRequest& request) {
   const Names ids = readJobs(request);
-  return replyFigure(request, comparisons.findTag(request.identity, ids), [&] {
+  ComparePort& comparisons = ports.comparisons;
+  return replyFigure(ports.figures, request, comparisons.findTag(request.identity, ids), [&] {
     return comparisons.find(request.identity, ids, request.captures.at("name"));
   });
 }
@@ -142,10 +141,11 @@ HttpReply listValidations(ValidationPort& validations, HttpRequest& request) {
       renderFigureList(validations.list(request.identity, id), "/v1/models/" + id + "/validation"));
 }
 
-HttpReply findValidation(ValidationPort& validations, HttpRequest& request) {
+HttpReply findValidation(const Ports& ports, HttpRequest& request) {
+  ValidationPort& validations = ports.validations;
   const std::string& id = request.captures.at("id");
   const std::uint64_t seed = readSeed(request);
-  return replyFigure(request, validations.findTag(request.identity, id, seed), [&] {
+  return replyFigure(ports.figures, request, validations.findTag(request.identity, id, seed), [&] {
     return validations.find(request.identity, id, request.captures.at("name"), seed);
   });
 }
@@ -163,11 +163,13 @@ Routes makeFigureRoutes(const Ports& ports) {
       get(plots + "/{name}", on(ports.figures, findFigure, {"format", "data"})),
       get("/v1/compare", on(ports.comparisons, compareJobs, {"jobs"}), true),
       get("/v1/compare/plots/{name}",
-          on(ports.comparisons, findOverlay, {"jobs", "format", "data"}),
+          withQuery({"jobs", "format", "data"},
+                    [ports](HttpRequest& request) { return findOverlay(ports, request); }),
           true),
       get(validation, on(ports.validations, listValidations), true),
       get(validation + "/{name}",
-          on(ports.validations, findValidation, {"seed", "format", "data"}),
+          withQuery({"seed", "format", "data"},
+                    [ports](HttpRequest& request) { return findValidation(ports, request); }),
           true),
   };
 }

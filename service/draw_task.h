@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/data/figure.h"
 #include "core/data/time_series.h"
-#include "core/figure/figure.h"
 #include "core/render/picture.h"
 
 namespace gaitmill {

@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/figure/svg.h"
+#include "core/figure/vega_lite.h"
 #include "service/job_tag.h"
 #include "service/stored_results.h"
 
@@ -35,6 +37,20 @@ Figure FigureService::find(const api::Identity& who,
                     name + "' yet; figures come with the tables they show",
                 {"", 0, 0, "name"});
   }
+}
+
+std::string FigureService::encode(const Figure& figure, api::FigureForm form) {
+  SvgOptions options;
+  options.heading = true;
+  switch (form) {
+    case api::FigureForm::kVegaLite:
+      break;
+    case api::FigureForm::kData:
+      return renderFigureData(figure);
+    case api::FigureForm::kSvg:
+      return renderSvg(figure, options);
+  }
+  return renderVegaLite(figure);
 }
 
 }  // namespace gaitmill

@@ -19,6 +19,7 @@ class FigureService : public api::FigurePort {
   Figure find(const api::Identity& who,
               const std::string& job_id,
               const std::string& name) override;
+  std::string encode(const Figure& figure, api::FigureForm form) override;
 
  private:
   Stores& stores_;

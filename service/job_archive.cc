@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "api/dto/vega_lite.h"
 #include "core/base/error.h"
+#include "core/figure/vega_lite.h"
 #include "service/job_input.h"
 #include "service/storage/sha256.h"
 #include "service/storage/table_codec.h"
@@ -154,7 +154,7 @@ void JobArchive::addViews(const api::Identity& who,
   for (const FigureInfo& info : figures_.list(*results)) {
     entries.push_back(
         {"plots/" + makeArchiveName(info.name) + ".vl.json", [this, results, name = info.name] {
-           return api::makeByteSource(api::renderVegaLite(figures_.make(*results, name)));
+           return api::makeByteSource(renderVegaLite(figures_.make(*results, name)));
          }});
   }
   entries.push_back(makeTextEntry("report.html", reports_.render(who, job.id)));

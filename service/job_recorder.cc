@@ -47,9 +47,8 @@ bool JobRecorder::enter(Stage stage) {
   if (!stages_.empty() && stages_.back().stage == name) {
     return false;
   }
-  const auto again = std::find_if(stages_.begin(), stages_.end(), [&](const auto& timing) {
-    return timing.stage == name;
-  });
+  const auto again = std::find_if(
+      stages_.begin(), stages_.end(), [&](const auto& timing) { return timing.stage == name; });
   stages_.erase(again, stages_.end());
   if (!stages_.empty()) {
     stages_.back().fraction = 1.0;

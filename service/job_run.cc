@@ -128,11 +128,8 @@ std::optional<SolveOutcome> JobRun::attempt() {
       return std::nullopt;
     }
     const bool is_storage = error.code() == ErrorCode::kStorage;
-    return SolveOutcome{is_storage ? SolveOutcome::End::kDied : SolveOutcome::End::kFailed,
-                        {},
-                        "",
-                        {},
-                        error};
+    return SolveOutcome{
+        is_storage ? SolveOutcome::End::kDied : SolveOutcome::End::kFailed, {}, "", {}, error};
   }
 }
 
@@ -183,8 +180,8 @@ void JobRun::finish(SolvedStage stage) {
                          makeItems(std::move(stage.items)),
                          recorder_.stages(),
                          recorder_.newWarnings()};
-  const bool is_written = writeStubbornly(
-      "stage", [&] { return stores_.jobs.saveStage(job_.ticket, finished); });
+  const bool is_written =
+      writeStubbornly("stage", [&] { return stores_.jobs.saveStage(job_.ticket, finished); });
   if (!is_written) {
     signals_.interrupt.raise();  // goesOn() has something to say
     return;
@@ -294,8 +291,7 @@ void JobRun::settle(const SolveOutcome& outcome) {
     case SolveOutcome::End::kFailed:
       break;
   }
-  if (writeStubbornly("failure",
-                      [&] { return stores_.jobs.fail(job_.ticket, *outcome.error); })) {
+  if (writeStubbornly("failure", [&] { return stores_.jobs.fail(job_.ticket, *outcome.error); })) {
     metrics_.add("gaitmill_jobs_finished_total", {{"state", "failed"}});
     logEvent(Severity::kWarn,
              "job.failed",

@@ -6,8 +6,8 @@
 
 #include "api/dto/result.h"
 #include "api/dto/trial.h"
+#include "core/data/figure.h"
 #include "core/figure/comparison.h"
-#include "core/figure/figure.h"
 #include "core/figure/result_source.h"
 #include "core/pipeline/pipeline.h"
 #include "core/report/report.h"

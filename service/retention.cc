@@ -20,8 +20,7 @@ bool tryToRemove(const OwnedId& owned, const Remove& remove) {
     remove();
     return true;
   } catch (const Error& error) {
-    logEvent(
-        Severity::kWarn, "retention.stays", {{"id", owned.id}, {"message", error.what()}});
+    logEvent(Severity::kWarn, "retention.stays", {{"id", owned.id}, {"message", error.what()}});
     return false;
   }
 }

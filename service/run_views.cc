@@ -3,9 +3,9 @@
 #include <cctype>
 #include <utility>
 
-#include "api/dto/vega_lite.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/figure/vega_lite.h"
 #include "service/draw_task.h"
 #include "service/picture_data.h"
 #include "service/run_results.h"
@@ -59,7 +59,7 @@ std::map<std::string, std::string> makeRunViews(
   content.results = &results;
   for (const FigureInfo& info : functions.figures.list(results)) {
     content.figures.push_back(functions.figures.make(results, info.name));
-    files["plots/" + info.name + ".vl.json"] = api::renderVegaLite(content.figures.back());
+    files["plots/" + info.name + ".vl.json"] = renderVegaLite(content.figures.back());
   }
   try {
     paintInstants(results, result, functions, geometry, content, files);

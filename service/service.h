@@ -25,7 +25,8 @@ class Service {
  public:
   /// Opens the database and frees the jobs of a service that was killed.
   /// @param program  that children run as "<program> solve …"
-  /// @throws Error kStorage…; kConfig if others than this machine could reach a service without keys,
+  /// @throws Error kStorage…; kConfig if others than this machine could reach a service without
+  /// keys,
   ///         and for a geometry folder that is not there
   Service(const ServeConfig& config,
           const PipelineFunctions& functions,
@@ -37,9 +38,10 @@ class Service {
   /// Starts workers and requests in threads of their own. @returns the port
   /// @throws Error kServicePort
   int start();
-  /// Not ready and no new work from now on; jobs may end by themselves for the stop limit, then they
-  /// are given back. Requests are answered until then.
-  /// @returns false if a job could not even be given back in time; the process must then end without
+  /// Not ready and no new work from now on; jobs may end by themselves for the stop limit, then
+  /// they are given back. Requests are answered until then.
+  /// @returns false if a job could not even be given back in time; the process must then end
+  /// without
   ///          destroying this object
   bool stop();
 

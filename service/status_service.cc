@@ -46,11 +46,11 @@ void StatusService::setLoad(std::function<api::ServerLoad()> load) {
 void StatusService::count(const api::RequestRecord& record) {
   const std::string route = record.pattern.empty() ? "none" : record.pattern;
   const std::string method = record.pattern.empty() ? "any" : record.method;
-  metrics_.observe("gaitmill_http_request_seconds",
-                   {{"route", route}, {"method", method}, {"status", std::to_string(record.status)}},
-                   record.seconds);
-  metrics_.add(
-      "gaitmill_http_request_bytes_total", {}, static_cast<double>(record.request_bytes));
+  metrics_.observe(
+      "gaitmill_http_request_seconds",
+      {{"route", route}, {"method", method}, {"status", std::to_string(record.status)}},
+      record.seconds);
+  metrics_.add("gaitmill_http_request_bytes_total", {}, static_cast<double>(record.request_bytes));
   metrics_.add("gaitmill_http_reply_bytes_total", {}, static_cast<double>(record.reply_bytes));
   logEvent(record.status >= 500 ? Severity::kWarn : Severity::kDebug,
            "http.request",

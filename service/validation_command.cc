@@ -1,7 +1,7 @@
 #include "service/validation_command.h"
 
-#include "api/dto/vega_lite.h"
 #include "core/figure/svg.h"
+#include "core/figure/vega_lite.h"
 #include "core/io/files.h"
 #include "core/io/osim_reader.h"
 #include "core/validation/validation.h"
@@ -13,9 +13,9 @@ namespace {
 std::string render(const Figure& figure, ValidateModelOptions::Form form) {
   switch (form) {
     case ValidateModelOptions::Form::kVegaLite:
-      return api::renderVegaLite(figure);
+      return renderVegaLite(figure);
     case ValidateModelOptions::Form::kData:
-      return api::renderFigureData(figure);
+      return renderFigureData(figure);
     case ValidateModelOptions::Form::kSvg: {
       SvgOptions options;
       options.heading = true;

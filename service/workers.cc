@@ -60,7 +60,9 @@ void Workers::beginStop() {
 
 bool Workers::stop(std::chrono::milliseconds limit) {
   beginStop();
-  const auto have_ended = [this] { return active_ == 0; };
+  const auto have_ended = [this] {
+    return active_ == 0;
+  };
   {
     std::unique_lock<std::mutex> lock(guard_);
     if (changed_.wait_for(lock, limit, have_ended)) {

@@ -26,10 +26,7 @@ struct WorkersOptions {
 class Workers {
  public:
   /// @param stores, shipped, metrics  outlive this; metrics has declareJobMetrics()
-  Workers(Stores& stores,
-          const ShippedCatalog& shipped,
-          Metrics& metrics,
-          WorkersOptions options);
+  Workers(Stores& stores, const ShippedCatalog& shipped, Metrics& metrics, WorkersOptions options);
   ~Workers();
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
@@ -60,8 +57,8 @@ class Workers {
   WorkersOptions options_;
   std::mutex guard_;
   std::condition_variable changed_;
-  bool stopping_ = false;  ///< no new work
-  bool killing_ = false;   ///< what runs is to be given back
+  bool stopping_ = false;          ///< no new work
+  bool killing_ = false;           ///< what runs is to be given back
   std::uint64_t submissions_ = 0;  ///< grows with every wake(), so that none is missed
   int active_ = 0;                 ///< threads that have not ended
   std::map<std::string, std::shared_ptr<JobSignals>> running_;

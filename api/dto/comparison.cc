@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/dto/object_reader.h"
-#include "core/figure/numbers.h"
+#include "core/base/numbers.h"
 
 namespace gaitmill::api {
 

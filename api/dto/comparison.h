@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/figure/comparison.h"
+#include "core/data/comparison.h"
 
 namespace gaitmill::api {
 

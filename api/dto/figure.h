@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/figure/comparison.h"
-#include "core/figure/figure.h"
+#include "core/data/comparison.h"
+#include "core/data/figure.h"
 
 namespace gaitmill::api {
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "core/base/numbers.h"
 #include "core/figure/coordinate_names.h"
 #include "core/figure/job_builders.h"
-#include "core/figure/numbers.h"
 #include "core/figure/quality_limit.h"
 
 namespace gaitmill {

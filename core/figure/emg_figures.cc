@@ -7,10 +7,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/numbers.h"
 #include "core/base/text.h"
 #include "core/figure/job_builders.h"
 #include "core/figure/muscle_names.h"
-#include "core/figure/numbers.h"
 
 namespace gaitmill {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/figure/figure.h"
+#include "core/data/figure.h"
 #include "core/figure/job_data.h"
 
 namespace gaitmill {

@@ -7,8 +7,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "core/data/figure.h"
 #include "core/data/time_series.h"
-#include "core/figure/figure.h"
 #include "core/figure/muscle_names.h"
 #include "core/figure/result_source.h"
 #include "core/math/events.h"

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/base/numbers.h"
 #include "core/base/text.h"
 #include "core/figure/coordinate_names.h"
 #include "core/figure/job_builders.h"
-#include "core/figure/numbers.h"
 
 namespace gaitmill {
 

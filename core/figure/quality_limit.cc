@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/figure/numbers.h"
+#include "core/base/numbers.h"
 
 namespace gaitmill {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "core/figure/figure.h"
+#include "core/data/figure.h"
 #include "core/figure/job_data.h"
 
 namespace gaitmill {

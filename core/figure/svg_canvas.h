@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/figure/figure.h"
+#include "core/data/figure.h"
 #include "core/figure/palette.h"
 
 namespace gaitmill {

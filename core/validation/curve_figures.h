@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/base/index.h"
+#include "core/data/figure.h"
 #include "core/data/model_spec.h"
-#include "core/figure/figure.h"
 
 namespace gaitmill {
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "core/data/figure.h"
 #include "core/data/model_spec.h"
-#include "core/figure/figure.h"
 
 namespace gaitmill {
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "core/data/figure.h"
 #include "core/data/model_spec.h"
-#include "core/figure/figure.h"
 #include "core/validation/validation.h"
 
 namespace gaitmill {

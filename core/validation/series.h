@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/figure/figure.h"
+#include "core/data/figure.h"
 
 namespace gaitmill {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/data/figure.h"
 #include "core/data/model_spec.h"
-#include "core/figure/figure.h"
 
 namespace gaitmill {
 

@@ -12,6 +12,8 @@
 
 #include "api/ports.h"
 #include "core/base/error.h"
+#include "core/figure/svg.h"
+#include "core/figure/vega_lite.h"
 
 namespace gaitmill {
 
@@ -346,6 +348,11 @@ class StubFigures : public api::FigurePort {
               const std::string& name) override {
     record_.note(who, "find figure " + job_id + " " + name);
     return makeStubFigure(name);
+  }
+  std::string encode(const Figure& figure, api::FigureForm form) override {
+    return form == api::FigureForm::kSvg    ? renderSvg(figure)
+           : form == api::FigureForm::kData ? renderFigureData(figure)
+                                            : renderVegaLite(figure);
   }
 
  private:

@@ -56,7 +56,7 @@ const std::map<std::string, std::set<std::string>>& allowedRooms() {
         "core/so",
         "core/analysis",
         "core/sample"}},
-      {"api", {"core/base", "core/data", "core/figure"}},
+      {"api", {"core/base", "core/data"}},
       // A program of the build, not of the product.
       {"api/embed", {}},
       {"service/storage", {"api", "core/base", "core/data"}},

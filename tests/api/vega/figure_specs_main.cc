@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "api/dto/vega_lite.h"
+#include "core/figure/vega_lite.h"
 #include "core/base/units.h"
 #include "core/figure/comparison.h"
 #include "core/figure/job_figures.h"
@@ -30,10 +30,10 @@ void writeText(const std::string& path, const std::string& text) {
 
 void writeFigure(const std::string& folder, const Figure& figure) {
   const std::string stem = folder + "/" + figure.name;
-  const std::string specification = gaitmill::api::renderVegaLite(figure);
+  const std::string specification = gaitmill::renderVegaLite(figure);
   const std::string picture = gaitmill::renderSvg(figure, gaitmill::SvgOptions{960, true});
   writeText(stem + ".vl.json", specification);
-  writeText(stem + ".data.json", gaitmill::api::renderFigureData(figure));
+  writeText(stem + ".data.json", gaitmill::renderFigureData(figure));
   writeText(stem + ".svg", picture);
   std::printf("%-34s %3zu panels  Vega-Lite %7zu bytes  SVG %7zu bytes\n",
               figure.name.c_str(),

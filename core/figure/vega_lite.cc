@@ -1,4 +1,4 @@
-#include "api/dto/vega_lite.h"
+#include "core/figure/vega_lite.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,17 +8,21 @@
 
 #include <nlohmann/json.hpp>
 
-#include "api/dto/object_reader.h"
-#include "core/figure/numbers.h"
+#include "core/base/numbers.h"
 #include "core/figure/palette.h"
 #include "core/figure/text_layout.h"
 #include "core/figure/ticks.h"
 
-namespace gaitmill::api {
+namespace gaitmill {
 
 namespace {
 
 using nlohmann::json;
+
+/// Names come from outside: what is no UTF-8 is replaced.
+std::string dumpJson(const json& document) {
+  return document.dump(-1, ' ', false, json::error_handler_t::replace);
+}
 
 constexpr const char* kSchema = "https://vega.github.io/schema/vega-lite/v5.json";
 constexpr double kWidth = 960;          // of all panels side by side [px]
@@ -466,4 +470,4 @@ std::string renderFigureData(const Figure& figure) {
                    {"panels", panels}});
 }
 
-}  // namespace gaitmill::api
+}  // namespace gaitmill

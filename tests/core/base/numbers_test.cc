@@ -1,4 +1,4 @@
-#include "core/figure/numbers.h"
+#include "core/base/numbers.h"
 
 #include <limits>
 

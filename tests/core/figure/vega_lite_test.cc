@@ -1,11 +1,11 @@
-#include "api/dto/vega_lite.h"
+#include "core/figure/vega_lite.h"
 
 #include <limits>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace gaitmill::api {
+namespace gaitmill {
 namespace {
 
 using nlohmann::json;
@@ -78,4 +78,4 @@ TEST(FigureData, HasTheNumbersAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace gaitmill::api
+}  // namespace gaitmill

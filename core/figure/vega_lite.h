@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "core/figure/figure.h"
+#include "core/data/figure.h"
 
-namespace gaitmill::api {
+namespace gaitmill {
 
 /// A complete Vega-Lite v5 specification with its data inside: panels in columns, each with bands,
 /// bars, curves, guides, axis titles with units. Ordinates have four significant digits; NaN is
@@ -16,4 +16,4 @@ std::string renderVegaLite(const Figure& figure);
 /// [{"direction", "value", "label"}], "note"}]}, full precision, NaN as null.
 std::string renderFigureData(const Figure& figure);
 
-}  // namespace gaitmill::api
+}  // namespace gaitmill
