@@ -4,9 +4,32 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <thread>
+
 #include "core/base/error.h"
 
 namespace gaitmill {
+
+namespace {
+
+// A process killed in the middle of starting a child leaves its locks with the child until that has
+// become another program: some milliseconds, longer on a busy machine.
+constexpr std::chrono::milliseconds kPatience{500};
+constexpr std::chrono::milliseconds kPause{10};
+
+bool tryLock(int file, int operation) {
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  while (::flock(file, operation | LOCK_NB) != 0) {
+    if (std::chrono::steady_clock::now() >= deadline) {
+      return false;
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+  return true;
+}
+
+}  // namespace
 
 FileLock::FileLock(const std::string& path, LockMode mode, const std::string& refusal)
     : file_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)) {
@@ -14,8 +37,7 @@ FileLock::FileLock(const std::string& path, LockMode mode, const std::string& re
           ErrorCode::kStorage,
           "cannot create the lock file; is the folder there and writable?",
           {path});
-  const int operation = (mode == LockMode::kShared ? LOCK_SH : LOCK_EX) | LOCK_NB;
-  if (::flock(file_, operation) != 0) {
+  if (!tryLock(file_, mode == LockMode::kShared ? LOCK_SH : LOCK_EX)) {
     ::close(file_);
     throw Error(ErrorCode::kStorageInUse, refusal, {path});
   }

@@ -10,8 +10,9 @@ enum class LockMode { kShared, kExclusive };
 /// so a kill leaves nothing to clean up.
 class FileLock {
  public:
-  /// Does not wait. @throws Error kStorageInUse with `refusal` if another holder stands in the way;
-  ///         kStorage if the file cannot be made
+  /// Waits half a second at most, for a holder that is just going.
+  /// @throws Error kStorageInUse with `refusal` if another holder stays in the way; kStorage if the
+  ///         file cannot be made
   FileLock(const std::string& path, LockMode mode, const std::string& refusal);
   ~FileLock();
   FileLock(const FileLock&) = delete;

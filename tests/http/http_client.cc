@@ -20,6 +20,8 @@ namespace gaitmill {
 namespace {
 
 constexpr int kSilence = 3000;  // [ms]
+// An image waits for its turn, and on a busy machine for its processor: longer than httplib would.
+constexpr time_t kPatience = 60;  // [s]
 
 ClientReply convert(const httplib::Result& result) {
   ClientReply reply;
@@ -43,6 +45,7 @@ nlohmann::json ClientReply::json() const {
 ClientReply HttpClient::get(const std::string& path,
                             const std::map<std::string, std::string>& headers) const {
   httplib::Client client("127.0.0.1", port_);
+  client.set_read_timeout(kPatience);
   return convert(client.Get(path, httplib::Headers(headers.begin(), headers.end())));
 }
 

@@ -316,7 +316,7 @@ TEST_F(ProductViews, ChildKilledDuringARenderIsReplaced) {
   const pid_t child = findDrawingChild(service_->process().pid());
   ASSERT_GT(child, 0);
   std::future<ClientReply> film = std::async(std::launch::async, [] {
-    return get("/images/animation.webp?width=240&height=180&rate=20");
+    return get("/images/animation.webp?width=240&height=180&rate=10");
   });
   std::this_thread::sleep_for(std::chrono::milliseconds(150));
   ::kill(child, SIGKILL);
