@@ -1,8 +1,10 @@
 #include "core/figure/svg_canvas.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/text.h"
+#include "core/figure/markup.h"
 
 namespace gaitmill {
 
@@ -39,29 +41,13 @@ std::string pointText(const Point& point) {
 }  // namespace
 
 std::string escapeXml(const std::string& text) {
-  std::string escaped;
-  for (const char letter : text) {
-    switch (letter) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      default:
-        escaped += static_cast<unsigned char>(letter) < 0x20 ? ' ' : letter;
-    }
-  }
-  return escaped;
+  std::string allowed = text;
+  std::replace_if(
+      allowed.begin(),
+      allowed.end(),
+      [](char letter) { return static_cast<unsigned char>(letter) < 0x20; },
+      ' ');
+  return escapeMarkup(allowed);
 }
 
 void SvgCanvas::addText(const Point& place, const std::string& text, const TextStyle& style) {

@@ -5,39 +5,22 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/figure/markup.h"
 
 namespace gaitmill {
 
 namespace {
 
 std::string escape(const std::string& words) {
-  std::string escaped;
-  escaped.reserve(words.size());
+  std::string allowed;
   for (const char letter : words) {
-    switch (letter) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      default: {
-        const auto byte = static_cast<unsigned char>(letter);
-        const bool is_control = byte < 0x20 && letter != '\n' && letter != '\t';
-        escaped += is_control || byte == 0x7f ? "" : std::string(1, letter);
-      }
+    const auto byte = static_cast<unsigned char>(letter);
+    const bool is_control = byte < 0x20 && letter != '\n' && letter != '\t';
+    if (!is_control && byte != 0x7f) {
+      allowed += letter;
     }
   }
-  return escaped;
+  return escapeMarkup(allowed);
 }
 
 std::string openTag(const char* tag, const Attributes& attributes) {
