@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -459,9 +460,15 @@ TEST_F(CrowdTest, BodiesBeyondTheirRoomAreTurnedAway) {
   EXPECT_EQ(refused.status, 503);
   EXPECT_NE(refused.header("retry-after"), "");
   first.close();
-  ASSERT_TRUE(server().awaitLoad([](const ServerLoad& load) { return load.connections == 0; }));
-  EXPECT_EQ(ask(makeRequest("PUT", "/bytes/a", "a/b", makePattern(0, 900'000))).body,
-            "same 900000");
+  // The reactor leaves the closing of spooled bodies to a handler: the room is there a moment
+  // later.
+  const std::string request = makeRequest("PUT", "/bytes/a", "a/b", makePattern(0, 900'000));
+  RawReply accepted = ask(request);
+  for (int i = 0; accepted.status == 503 && i < 1000; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    accepted = ask(request);
+  }
+  EXPECT_EQ(accepted.body, "same 900000");
 }
 
 TEST_F(CrowdTest, ADiskWithoutRoomIsToldBeforeTheBody) {
