@@ -174,6 +174,8 @@ int httpStatus(ErrorCode code) {
     case ErrorCode::kTrcHeader:
     case ErrorCode::kTrcUnits:
     case ErrorCode::kTrcMarkerNames:
+    case ErrorCode::kMarkerNames:
+    case ErrorCode::kMarkersMissing:
     case ErrorCode::kTrcDuplicateMarker:
     case ErrorCode::kTrcColumnCount:
     case ErrorCode::kTrcNumber:

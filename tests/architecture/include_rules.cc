@@ -28,6 +28,7 @@ const std::map<std::string, std::set<std::string>>& allowedRooms() {
       {"core/cmc", stage},
       {"core/so", stage},
       {"core/analysis", stage},
+      {"core/intake", {"core/base", "core/data", "core/math"}},
       {"core/sample", {"core/base", "core/data", "core/math", "core/model"}},
       {"core/figure", {"core/base", "core/data", "core/math", "core/analysis"}},
       {"core/render",
@@ -55,6 +56,7 @@ const std::map<std::string, std::set<std::string>>& allowedRooms() {
         "core/cmc",
         "core/so",
         "core/analysis",
+        "core/intake",
         "core/sample"}},
       {"api", {"core/base", "core/data"}},
       // A program of the build, not of the product.
