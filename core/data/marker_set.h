@@ -27,6 +27,29 @@ struct MarkerPair {
   std::string second;
 };
 
+/// A point computed from measured markers in every frame of a static trial. It then counts as
+/// measured: pairs and placements may name it, and `markers` says where it sits on the model.
+struct VirtualMarkerSpec {
+  enum class Rule {
+    kMean,  ///< mean of the sources
+    /// Hip centre after Harrington et al. (2007), J Biomech 40:595 (spec/scale.md 7.3). Sources:
+    /// right ASIS, left ASIS, then right and left PSIS, or one point between them.
+    kRightHipCenter,
+    kLeftHipCenter,
+  };
+  std::string name;
+  Rule rule = Rule::kMean;
+  std::vector<std::string> sources;  ///< where one is missing in a frame, the point is missing
+};
+
+/// Limits of a factor relative to another measurement's, for distances that are measured badly: a
+/// shoe's sole counts as height of the foot.
+struct FactorLimit {
+  std::string measurement;  ///< one that comes before
+  double min_ratio = 0;
+  double max_ratio = std::numeric_limits<double>::infinity();
+};
+
 /// Mean of (measured / model distance) over the pairs, applied to some axes of some bodies
 /// (spec/scale.md 1).
 struct MeasurementSpec {
@@ -36,6 +59,16 @@ struct MeasurementSpec {
   std::array<bool, 3> axes = {true, true, true};  ///< X, Y, Z of the body
   /// Whether a pair that cannot be measured is an error; otherwise it is left out with a warning.
   bool required = true;
+  /// Model distances are those of the pose fitted to the static trial rather than of the default
+  /// pose, repeated until the factors stand still: for pairs that cross a joint.
+  bool in_fitted_pose = false;
+  /// Measurements of one group are alternatives: the first that gives a factor counts.
+  std::string alternative_of;
+  /// A factor outside is refused with a warning that names it.
+  double min_factor = 0;
+  double max_factor = std::numeric_limits<double>::infinity();
+  /// A factor beyond is set to the limit with a warning.
+  std::optional<FactorLimit> limit;
 };
 
 /// Factors that are set rather than measured.
@@ -77,6 +110,8 @@ struct FitTasks {
 /// One static pose on which the movable markers are placed.
 struct PlacementSpec {
   TimeRange range;  ///< frames that are averaged
+  /// A marker pulls if it is seen in so many of them; 1 is OpenSim's rule.
+  double min_visible_fraction = 1;
   FitTasks tasks;
 };
 
@@ -85,7 +120,11 @@ struct MarkerSetSpec {
   std::string name;
   std::string description;
   std::vector<MarkerSpec> markers;  ///< added to the model, replacing those of the same name
-  TimeRange measurement_range;      ///< frames of the static trial whose distances are averaged
+  std::vector<VirtualMarkerSpec> virtual_markers;  ///< added to the static trials
+  /// Factor of every body before anything is measured, and in the end of those that nothing
+  /// measures: the subject's height over the model's.
+  double size_ratio = 1;
+  TimeRange measurement_range;  ///< frames of the static trial whose distances are averaged
   ScalingOrder order = ScalingOrder::kMeasurementsThenManual;
   std::vector<MeasurementSpec> measurements;
   std::vector<ManualScaleSpec> manual;

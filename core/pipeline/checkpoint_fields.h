@@ -253,8 +253,8 @@ void visitFields(Archive& archive, Access<Archive, PairResult>& value) {
 
 template <class Archive>
 void visitFields(Archive& archive, Access<Archive, MeasurementResult>& value) {
-  auto& [name, factor, pairs] = value;
-  archive(name, factor, pairs);
+  auto& [name, factor, pairs, use] = value;
+  archive(name, factor, pairs, use);
 }
 
 template <class Archive>
@@ -283,8 +283,8 @@ void visitFields(Archive& archive, Access<Archive, PlacementResult>& value) {
 
 template <class Archive>
 void visitFields(Archive& archive, Access<Archive, ScaleResult>& value) {
-  auto& [model, factors, measurements, placements, mass, warnings] = value;
-  archive(model, factors, measurements, placements, mass, warnings);
+  auto& [model, factors, measurements, placements, mass, pose_rounds, warnings] = value;
+  archive(model, factors, measurements, placements, mass, pose_rounds, warnings);
 }
 
 template <class Archive>

@@ -1,6 +1,10 @@
 #include "core/pipeline/marker_set_json.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "core/base/error.h"
@@ -58,6 +62,38 @@ std::vector<MarkerSpec> readMarkers(JsonFields& document) {
   return markers;
 }
 
+using Rule = VirtualMarkerSpec::Rule;
+constexpr std::pair<const char*, Rule> kRules[] = {
+    {"mean", Rule::kMean},
+    {"harrington_2007_right", Rule::kRightHipCenter},
+    {"harrington_2007_left", Rule::kLeftHipCenter},
+};
+
+std::vector<VirtualMarkerSpec> readVirtualMarkers(JsonFields& document) {
+  std::vector<VirtualMarkerSpec> points;
+  for (JsonFields& fields : document.objects("virtual_markers")) {
+    VirtualMarkerSpec point{fields.text("name"), Rule::kMean, fields.texts("sources")};
+    const std::string word = fields.text("rule", "mean");
+    const auto* const found = std::find_if(
+        std::begin(kRules), std::end(kRules), [&](const auto& rule) { return word == rule.first; });
+    if (found == std::end(kRules)) {
+      fields.refuse(
+          "rule",
+          "found '" + word + "', expected mean, harrington_2007_right or harrington_2007_left");
+    }
+    point.rule = found->second;
+    if (point.sources.size() < (point.rule == Rule::kMean ? 1U : 3U)) {
+      fields.refuse("sources",
+                    point.rule == Rule::kMean
+                        ? "expected at least one marker"
+                        : "expected right ASIS, left ASIS, and one or two posterior markers");
+    }
+    fields.finish();
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
 std::array<bool, 3> readAxes(JsonFields& fields) {
   const std::string letters = fields.text("axes", "XYZ");
   std::array<bool, 3> axes = {false, false, false};
@@ -88,6 +124,21 @@ std::vector<MarkerPair> readPairs(JsonFields& fields) {
   return pairs;
 }
 
+std::optional<FactorLimit> readLimit(JsonFields& measurement) {
+  if (!measurement.has("limit")) {
+    return std::nullopt;
+  }
+  JsonFields fields = measurement.object("limit");
+  FactorLimit limit{fields.text("measurement")};
+  limit.min_ratio = fields.number("min_ratio", limit.min_ratio);
+  limit.max_ratio = fields.number("max_ratio", limit.max_ratio);
+  if (!(limit.min_ratio <= limit.max_ratio)) {
+    fields.refuse("max_ratio", "lies below min_ratio");
+  }
+  fields.finish();
+  return limit;
+}
+
 std::vector<MeasurementSpec> readMeasurements(JsonFields& scale) {
   std::vector<MeasurementSpec> measurements;
   for (JsonFields& fields : scale.objects("measurements")) {
@@ -97,6 +148,11 @@ std::vector<MeasurementSpec> readMeasurements(JsonFields& scale) {
     measurement.bodies = fields.texts("bodies");
     measurement.axes = readAxes(fields);
     measurement.required = fields.flag("required", true);
+    measurement.in_fitted_pose = fields.flag("in_fitted_pose", false);
+    measurement.alternative_of = fields.text("alternative_of", "");
+    measurement.min_factor = fields.number("min_factor", measurement.min_factor);
+    measurement.max_factor = fields.number("max_factor", measurement.max_factor);
+    measurement.limit = readLimit(fields);
     fields.finish();
     measurements.push_back(std::move(measurement));
   }
@@ -133,6 +189,10 @@ ScalingOrder readOrder(JsonFields& scale) {
 void readScale(JsonFields scale, MarkerSetSpec& set) {
   set.order = readOrder(scale);
   set.measurement_range = readTimeRange(scale);
+  set.size_ratio = scale.number("size_ratio", 1);
+  if (!(set.size_ratio > 0)) {
+    scale.refuse("size_ratio", "expected a positive number");
+  }
   set.preserve_mass_distribution = scale.flag("preserve_mass_distribution", true);
   set.manual = readManual(scale);
   set.measurements = readMeasurements(scale);
@@ -178,7 +238,164 @@ FitTasks readFitTasks(JsonFields& fit) {
   return tasks;
 }
 
+PlacementSpec readPlacement(JsonFields& fields) {
+  PlacementSpec placement;
+  placement.range = readTimeRange(fields);
+  placement.min_visible_fraction = fields.number("min_visible_fraction", 1);
+  if (!(placement.min_visible_fraction > 0 && placement.min_visible_fraction <= 1)) {
+    fields.refuse("min_visible_fraction", "expected a share in (0, 1]");
+  }
+  placement.tasks = readFitTasks(fields);
+  return placement;
+}
+
+using Json = nlohmann::ordered_json;
+
+void writeRange(const TimeRange& range, Json& json) {
+  if (std::isfinite(range.start) && std::isfinite(range.end)) {
+    json["time_range_s"] = {range.start, range.end};
+  }
+}
+
+Json writePoint(const Eigen::Vector3d& point) {
+  return {point.x(), point.y(), point.z()};
+}
+
+Json writeMarkers(const std::vector<MarkerSpec>& markers) {
+  Json list = Json::array();
+  for (const MarkerSpec& marker : markers) {
+    list.push_back({{"name", marker.name},
+                    {"body", marker.body},
+                    {"location_m", writePoint(marker.location)},
+                    {"fixed", marker.fixed}});
+  }
+  return list;
+}
+
+Json writeVirtualMarkers(const std::vector<VirtualMarkerSpec>& points) {
+  Json list = Json::array();
+  for (const VirtualMarkerSpec& point : points) {
+    for (const auto& [word, rule] : kRules) {
+      if (rule == point.rule) {
+        list.push_back({{"name", point.name}, {"rule", word}, {"sources", point.sources}});
+      }
+    }
+  }
+  return list;
+}
+
+Json writeLimit(const FactorLimit& limit) {
+  Json json = {{"measurement", limit.measurement}, {"min_ratio", limit.min_ratio}};
+  if (std::isfinite(limit.max_ratio)) {
+    json["max_ratio"] = limit.max_ratio;
+  }
+  return json;
+}
+
+Json writeMeasurement(const MeasurementSpec& measurement) {
+  Json pairs = Json::array();
+  for (const MarkerPair& pair : measurement.pairs) {
+    pairs.push_back({pair.first, pair.second});
+  }
+  std::string axes;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (measurement.axes[axis]) {
+      axes += "XYZ"[axis];
+    }
+  }
+  Json json = {{"name", measurement.name},
+               {"pairs", pairs},
+               {"bodies", measurement.bodies},
+               {"axes", axes},
+               {"required", measurement.required},
+               {"in_fitted_pose", measurement.in_fitted_pose},
+               {"alternative_of", measurement.alternative_of},
+               {"min_factor", measurement.min_factor}};
+  if (std::isfinite(measurement.max_factor)) {
+    json["max_factor"] = measurement.max_factor;
+  }
+  if (measurement.limit) {
+    json["limit"] = writeLimit(*measurement.limit);
+  }
+  return json;
+}
+
+Json writeScale(const MarkerSetSpec& set) {
+  Json json;
+  json["order"] = set.order == ScalingOrder::kMeasurementsThenManual
+                      ? Json{"measurements", "manual"}
+                      : Json{"manual", "measurements"};
+  writeRange(set.measurement_range, json);
+  json["size_ratio"] = set.size_ratio;
+  json["preserve_mass_distribution"] = set.preserve_mass_distribution;
+  json["manual"] = Json::array();
+  for (const ManualScaleSpec& manual : set.manual) {
+    json["manual"].push_back({{"bodies", manual.bodies}, {"factors", writePoint(manual.factors)}});
+  }
+  json["measurements"] = Json::array();
+  for (const MeasurementSpec& measurement : set.measurements) {
+    json["measurements"].push_back(writeMeasurement(measurement));
+  }
+  return json;
+}
+
+void writeAngleOrLength(const ModelSpec& model,
+                        const std::string& coordinate,
+                        const std::string& stem,
+                        double value,
+                        Json& json) {
+  if (!std::isfinite(value)) {
+    return;
+  }
+  if (findMotionKind(model, coordinate) == MotionKind::kTranslational) {
+    json[stem + "_m"] = value;
+  } else {
+    json[stem + "_deg"] = toDegrees(value);
+  }
+}
+
+void writeFitTasks(const ModelSpec& model, const FitTasks& tasks, Json& json) {
+  json["weights"] = Json::object();
+  for (const MarkerWeight& marker : tasks.markers) {
+    json["weights"][marker.marker] = marker.weight;
+  }
+  json["coordinate_tasks"] = Json::array();
+  for (const CoordinateTask& task : tasks.coordinates) {
+    Json entry = {{"coordinate", task.coordinate}, {"weight", task.weight}};
+    if (task.value) {
+      writeAngleOrLength(model, task.coordinate, "value", *task.value, entry);
+    }
+    json["coordinate_tasks"].push_back(std::move(entry));
+  }
+  json["ranges"] = Json::array();
+  for (const CoordinateRange& range : tasks.ranges) {
+    Json entry = {{"coordinate", range.coordinate}};
+    writeAngleOrLength(model, range.coordinate, "min", range.min, entry);
+    writeAngleOrLength(model, range.coordinate, "max", range.max, entry);
+    json["ranges"].push_back(std::move(entry));
+  }
+}
+
 }  // namespace
+
+std::string writeMarkerSet(const MarkerSetSpec& set, const ModelSpec& model) {
+  Json json;
+  json["name"] = set.name;
+  json["description"] = set.description;
+  json["markers"] = writeMarkers(set.markers);
+  json["virtual_markers"] = writeVirtualMarkers(set.virtual_markers);
+  json["scale"] = writeScale(set);
+  json["placement"] = Json::array();
+  for (const PlacementSpec& placement : set.placements) {
+    Json entry;
+    writeRange(placement.range, entry);
+    entry["min_visible_fraction"] = placement.min_visible_fraction;
+    writeFitTasks(model, placement.tasks, entry);
+    json["placement"].push_back(std::move(entry));
+  }
+  writeFitTasks(model, set.ik, json["ik"]);
+  return json.dump(2) + "\n";
+}
 
 MarkerSetSpec readMarkerSet(const InputFile& file) {
   const nlohmann::json document = parseJson(file);
@@ -187,10 +404,10 @@ MarkerSetSpec readMarkerSet(const InputFile& file) {
   set.name = fields.text("name");
   set.description = fields.text("description", "");
   set.markers = readMarkers(fields);
+  set.virtual_markers = readVirtualMarkers(fields);
   readScale(fields.object("scale"), set);
   for (JsonFields& placement : fields.objects("placement")) {
-    const TimeRange range = readTimeRange(placement);
-    set.placements.push_back({range, readFitTasks(placement)});
+    set.placements.push_back(readPlacement(placement));
     placement.finish();
   }
   JsonFields ik = fields.object("ik");

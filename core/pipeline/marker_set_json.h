@@ -1,6 +1,9 @@
 #pragma once
 
+#include <string>
+
 #include "core/data/marker_set.h"
+#include "core/data/model_spec.h"
 #include "core/pipeline/pipeline.h"
 
 namespace gaitmill {
@@ -10,5 +13,9 @@ namespace gaitmill {
 /// @throws Error kSettingsJson (with line and column), kSettingsUnknownField (with the nearest
 ///   name), kSettingsValue, kInputMissing (with the path of the field)
 MarkerSetSpec readMarkerSet(const InputFile& file);
+
+/// The document that readMarkerSet reads back to the same values (angles to the last bits).
+/// @param model  tells rotations from translations
+std::string writeMarkerSet(const MarkerSetSpec& set, const ModelSpec& model);
 
 }  // namespace gaitmill

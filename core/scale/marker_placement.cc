@@ -21,7 +21,7 @@ namespace {
 /// Mean position of one marker; NaN if it is never seen.
 struct MeanPosition {
   Eigen::Vector3d position = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  bool always_seen = false;
+  double visible_fraction = 0;  ///< of the frames in the range
 };
 
 MeanPosition calcMean(const MarkerTrajectories& trial, int marker, const FrameRange& rows) {
@@ -34,7 +34,7 @@ MeanPosition calcMean(const MarkerTrajectories& trial, int marker, const FrameRa
     }
   }
   MeanPosition mean;
-  mean.always_seen = seen == rows.last - rows.first + 1;
+  mean.visible_fraction = static_cast<double>(seen) / (rows.last - rows.first + 1);
   if (seen > 0) {
     mean.position = sum / seen;
   }
@@ -58,12 +58,13 @@ void removeUnmeasured(const MarkerTrajectories& trial,
 
 Eigen::Matrix3Xd collectTargets(const MarkerFit& fit,
                                 const MarkerTrajectories& trial,
-                                const FrameRange& rows) {
+                                const FrameRange& rows,
+                                double min_visible_fraction) {
   Eigen::Matrix3Xd targets(3, static_cast<Eigen::Index>(fit.markers().size()));
   for (std::size_t m = 0; m < fit.markers().size(); ++m) {
     const MeanPosition mean = calcMean(trial, *trial.findMarker(fit.markers()[m]), rows);
     targets.col(static_cast<Eigen::Index>(m)) =
-        mean.always_seen ? mean.position : MeanPosition{}.position;
+        mean.visible_fraction >= min_visible_fraction ? mean.position : MeanPosition{}.position;
   }
   return targets;
 }
@@ -128,6 +129,23 @@ void addMarkers(const std::vector<MarkerSpec>& markers, ModelSpec& model) {
   }
 }
 
+Eigen::VectorXd findStaticPose(const Model& model,
+                               const PlacementSpec& placement,
+                               const MarkerTrajectories& trial,
+                               const MarkerFitOptions& options,
+                               const std::optional<Eigen::VectorXd>& start) {
+  const FrameRange rows = findFrameRange(trial.time, placement.range);
+  MarkerFit fit(model, placement.tasks, trial.names, options);
+  const Eigen::Matrix3Xd targets = collectTargets(fit, trial, rows, placement.min_visible_fraction);
+  Eigen::VectorXd q = start.value_or(model.defaultPose());
+  if (start) {
+    fit.solve(targets, q);
+  } else {
+    PoseSearch(model, fit).solve(targets, q);
+  }
+  return q;
+}
+
 PlacementResult placeMarkers(const PlacementSpec& placement,
                              const MarkerTrajectories& trial,
                              const MarkerFitOptions& options,
@@ -139,7 +157,8 @@ PlacementResult placeMarkers(const PlacementSpec& placement,
   MarkerFit fit(fitted, placement.tasks, trial.names, options);
   Eigen::VectorXd q = fitted.defaultPose();
   const MarkerFitSummary summary =
-      PoseSearch(fitted, fit).solve(collectTargets(fit, trial, rows), q);
+      PoseSearch(fitted, fit)
+          .solve(collectTargets(fit, trial, rows, placement.min_visible_fraction), q);
   result.iterations = summary.iterations;
   result.converged = summary.stop == FitStop::kConverged;
   storeErrors(fit, result);

@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/base/where.h"
 
 namespace gaitmill {
@@ -64,14 +66,14 @@ std::string measure(const Model& model,
   return {};
 }
 
-MeasurementResult measureAll(const Model& model,
-                             const MarkerTrajectories& trial,
-                             const ScaleOptions& options,
-                             const MeasurementSpec& spec,
-                             std::vector<std::string>& warnings) {
-  ModelState state(model);
-  state.setPose(model.defaultPose());
-  MeasurementResult result{spec.name, -1, {}};
+/// The pairs of one measurement and the mean of their factors.
+MeasurementResult measurePairs(const Model& model,
+                               const ModelState& state,
+                               const MarkerTrajectories& trial,
+                               const ScaleOptions& options,
+                               const MeasurementSpec& spec,
+                               std::vector<std::string>& warnings) {
+  MeasurementResult result{spec.name, -1, {}, MeasurementUse::kUnmeasured};
   double sum = 0;
   int count = 0;
   for (const MarkerPair& names : spec.pairs) {
@@ -88,8 +90,68 @@ MeasurementResult measureAll(const Model& model,
     count += fault.empty() ? 1 : 0;
     result.pairs.push_back(std::move(pair));
   }
-  result.factor = count > 0 ? sum / count : -1;
+  if (count > 0) {
+    result.factor = sum / count;
+    result.use = MeasurementUse::kApplied;
+  }
   return result;
+}
+
+bool isApplied(const MeasurementResult& result) {
+  return result.use == MeasurementUse::kApplied || result.use == MeasurementUse::kLimited;
+}
+
+std::string listPairs(const MeasurementResult& result) {
+  std::string list;
+  for (const PairResult& pair : result.pairs) {
+    if (pair.factor > 0) {
+      list += (list.empty() ? "" : ", ") + pair.first + " to " + pair.second + " " +
+              formatFixed(100 * pair.measured, 1) + " cm against " +
+              formatFixed(100 * pair.in_model, 1) + " cm in the model";
+    }
+  }
+  return list;
+}
+
+/// Refuses a factor outside the band of its measurement.
+void judgeBand(const MeasurementSpec& spec,
+               MeasurementResult& result,
+               std::vector<std::string>& warnings) {
+  if (isApplied(result) && (result.factor < spec.min_factor || result.factor > spec.max_factor)) {
+    result.use = MeasurementUse::kRefused;
+    warnings.push_back("measurement '" + spec.name + "' is refused: its factor " +
+                       formatFixed(result.factor, 3) + " lies outside " +
+                       formatFixed(spec.min_factor, 2) + " to " + formatFixed(spec.max_factor, 2) +
+                       " (" + listPairs(result) +
+                       "); are these markers swapped, misnamed or misplaced?");
+  }
+}
+
+/// Keeps a factor within its limits relative to an earlier measurement.
+void applyLimit(const MeasurementSpec& spec,
+                const std::vector<MeasurementResult>& earlier,
+                MeasurementResult& result,
+                std::vector<std::string>& warnings) {
+  if (!spec.limit || !isApplied(result)) {
+    return;
+  }
+  const auto reference =
+      std::find_if(earlier.begin(), earlier.end(), [&](const MeasurementResult& one) {
+        return one.name == spec.limit->measurement && isApplied(one);
+      });
+  if (reference == earlier.end()) {
+    return;
+  }
+  const double limited = std::clamp(result.factor,
+                                    spec.limit->min_ratio * reference->factor,
+                                    spec.limit->max_ratio * reference->factor);
+  if (limited != result.factor) {
+    warnings.push_back("measurement '" + spec.name + "' gives " + formatFixed(result.factor, 3) +
+                       "; limited to " + formatFixed(limited, 3) + " beside '" + reference->name +
+                       "' " + formatFixed(reference->factor, 3));
+    result.factor = limited;
+    result.use = MeasurementUse::kLimited;
+  }
 }
 
 BodyScale& getScale(const Model& model, const std::string& body, ScaleFactors& factors) {
@@ -116,19 +178,55 @@ void warnOfDisagreement(const ScaleOptions& options,
   }
 }
 
+void applyFactor(const Model& model,
+                 const MeasurementSpec& spec,
+                 double factor,
+                 ScaleFactors& factors) {
+  for (const std::string& body : spec.bodies) {
+    BodyScale& scale = getScale(model, body, factors);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (spec.axes[static_cast<std::size_t>(axis)]) {
+        scale.factors[axis] = factor;
+      }
+    }
+  }
+}
+
+/// Whether an earlier alternative already counts.
+bool isAnswered(const MarkerSetSpec& set, std::size_t index, const ScaleFactors& factors) {
+  const std::string& group = set.measurements[index].alternative_of;
+  for (std::size_t i = 0; i < index && !group.empty(); ++i) {
+    if (set.measurements[i].alternative_of == group && isApplied(factors.measurements[i])) {
+      return true;
+    }
+  }
+  return false;
+}
+
 void applyMeasurements(const Model& model,
                        const MarkerTrajectories& trial,
                        const ScaleOptions& options,
+                       const std::optional<Eigen::VectorXd>& fitted_pose,
                        ScaleFactors& factors) {
-  for (const MeasurementSpec& spec : options.marker_set.measurements) {
-    MeasurementResult result = measureAll(model, trial, options, spec, factors.warnings);
+  ModelState standing(model), fitted(model);
+  standing.setPose(model.defaultPose());
+  fitted.setPose(fitted_pose.value_or(model.defaultPose()));
+  const MarkerSetSpec& set = options.marker_set;
+  for (std::size_t i = 0; i < set.measurements.size(); ++i) {
+    const MeasurementSpec& spec = set.measurements[i];
+    if (isAnswered(set, i, factors)) {
+      factors.measurements.push_back({spec.name, -1, {}, MeasurementUse::kNotNeeded});
+      continue;
+    }
+    const ModelState& state = spec.in_fitted_pose ? fitted : standing;
+    MeasurementResult result = measurePairs(model, state, trial, options, spec, factors.warnings);
+    judgeBand(spec, result, factors.warnings);
+    applyLimit(spec, factors.measurements, result, factors.warnings);
     for (const std::string& body : spec.bodies) {
-      BodyScale& scale = getScale(model, body, factors);
-      for (int axis = 0; axis < 3; ++axis) {
-        if (spec.axes[static_cast<std::size_t>(axis)] && result.factor > 0) {
-          scale.factors[axis] = result.factor;
-        }
-      }
+      getScale(model, body, factors);
+    }
+    if (isApplied(result)) {
+      applyFactor(model, spec, result.factor, factors);
     }
     warnOfDisagreement(options, result, factors.warnings);
     factors.measurements.push_back(std::move(result));
@@ -155,6 +253,30 @@ void warnOfUnusualFactors(const ScaleOptions& options, ScaleFactors& factors) {
   }
 }
 
+/// Nothing keeps its size in silence.
+void warnOfUnmeasuredBodies(const MarkerSetSpec& set, ScaleFactors& factors) {
+  std::set<std::string> measured;
+  for (std::size_t i = 0; i < set.measurements.size(); ++i) {
+    if (isApplied(factors.measurements[i])) {
+      measured.insert(set.measurements[i].bodies.begin(), set.measurements[i].bodies.end());
+    }
+  }
+  for (const ManualScaleSpec& manual : set.manual) {
+    measured.insert(manual.bodies.begin(), manual.bodies.end());
+  }
+  std::string list;
+  for (const BodyScale& body : factors.bodies) {
+    if (measured.count(body.body) == 0) {
+      list += (list.empty() ? "" : ", ") + body.body;
+    }
+  }
+  if (!list.empty() && !(set.measurements.empty() && set.manual.empty())) {
+    factors.warnings.push_back(
+        "nothing measures " + list + ": scaled by " + formatFixed(set.size_ratio, 3) +
+        (set.size_ratio == 1 ? ", the generic size" : ", the subject's height over the model's"));
+  }
+}
+
 }  // namespace
 
 FrameRange findFrameRange(const std::vector<double>& time, const TimeRange& range) {
@@ -171,19 +293,21 @@ FrameRange findFrameRange(const std::vector<double>& time, const TimeRange& rang
 
 ScaleFactors calcScaleFactors(const Model& model,
                               const MarkerTrajectories& trial,
-                              const ScaleOptions& options) {
+                              const ScaleOptions& options,
+                              const std::optional<Eigen::VectorXd>& fitted_pose) {
   ScaleFactors factors;
   for (const BodySpec& body : model.spec().bodies) {
-    factors.bodies.push_back({body.name, Eigen::Vector3d::Ones()});
+    factors.bodies.push_back({body.name, Eigen::Vector3d::Constant(options.marker_set.size_ratio)});
   }
   if (options.marker_set.order == ScalingOrder::kManualThenMeasurements) {
     applyManual(model, options.marker_set, factors);
-    applyMeasurements(model, trial, options, factors);
+    applyMeasurements(model, trial, options, fitted_pose, factors);
   } else {
-    applyMeasurements(model, trial, options, factors);
+    applyMeasurements(model, trial, options, fitted_pose, factors);
     applyManual(model, options.marker_set, factors);
   }
   warnOfUnusualFactors(options, factors);
+  warnOfUnmeasuredBodies(options.marker_set, factors);
   return factors;
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "core/data/marker_trajectories.h"
 #include "core/model/model.h"
@@ -20,7 +23,8 @@ FrameRange findFrameRange(const std::vector<double>& time, const TimeRange& rang
 
 /// Factors from measured marker distances and from manual values.
 struct ScaleFactors {
-  std::vector<BodyScale> bodies;  ///< one per body, in model order; 1 where nothing was said
+  std::vector<BodyScale>
+      bodies;  ///< one per body, in model order; size ratio where nothing was said
   std::vector<MeasurementResult> measurements;
   std::vector<std::string> warnings;
 };
@@ -30,10 +34,12 @@ struct ScaleFactors {
 /// (spec/scale.md 1). A frame in which a marker is missing is left out of the mean of its pairs;
 /// OpenSim would drop the measurement.
 /// @param model  with the laboratory's markers
+/// @param fitted_pose  (n_coordinates) pose of the static trial, for measurements that ask for it
 /// @throws Error kInputMarkers if a required pair cannot be measured (unknown marker, visible in
 ///   too few frames), kModelReference for an unknown body
 ScaleFactors calcScaleFactors(const Model& model,
                               const MarkerTrajectories& trial,
-                              const ScaleOptions& options);
+                              const ScaleOptions& options,
+                              const std::optional<Eigen::VectorXd>& fitted_pose = {});
 
 }  // namespace gaitmill

@@ -26,10 +26,20 @@ struct PairResult {
   double factor = -1;            ///< measured / in_model
 };
 
+/// What became of a measurement.
+enum class MeasurementUse {
+  kApplied,
+  kLimited,     ///< applied at the limit that another measurement sets
+  kUnmeasured,  ///< none of its pairs could be measured
+  kRefused,     ///< its factor is implausible
+  kNotNeeded,   ///< an earlier alternative counts
+};
+
 struct MeasurementResult {
   std::string name;
-  double factor = -1;  ///< mean over the pairs; -1 if it could not be measured
+  double factor = -1;  ///< as applied, else the mean over the pairs; -1 if it was not measured
   std::vector<PairResult> pairs;
+  MeasurementUse use = MeasurementUse::kUnmeasured;
 };
 
 /// Fit of one static pose and what it did to the markers.
@@ -53,6 +63,9 @@ struct ScaleResult {
   std::vector<MeasurementResult> measurements;
   std::vector<PlacementResult> placements;
   double mass = -1;  ///< [kg]
+  /// Rounds of scaling and fitting until the factors stood still; 0 if all distances are those of
+  /// the default pose.
+  int pose_rounds = 0;
   std::vector<std::string> warnings;
 };
 

@@ -1,6 +1,8 @@
 #include "core/scale/scale_solver.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -9,11 +11,30 @@
 #include "core/model/model.h"
 #include "core/scale/apply_scale.h"
 #include "core/scale/marker_placement.h"
-#include "core/scale/scale_factors.h"
+#include "core/scale/virtual_markers.h"
 
 namespace gaitmill {
 
 namespace {
+
+/// Factors that change by less have settled (spec/scale.md 7).
+constexpr double kFactorTolerance = 1e-4;
+/// The published trials take three to six rounds.
+constexpr int kMaxPoseRounds = 30;
+
+bool measuresInFittedPose(const MarkerSetSpec& set) {
+  return std::any_of(set.measurements.begin(),
+                     set.measurements.end(),
+                     [](const MeasurementSpec& one) { return one.in_fitted_pose; });
+}
+
+double calcChange(const std::vector<BodyScale>& before, const std::vector<BodyScale>& after) {
+  double change = 0;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    change = std::max(change, (after[i].factors - before[i].factors).cwiseAbs().maxCoeff());
+  }
+  return change;
+}
 
 void warnOfPlacement(const ScaleOptions& options,
                      const PlacementResult& placement,
@@ -37,8 +58,12 @@ ScaleSolver::ScaleSolver(ModelSpec generic, ScaleOptions options)
   addMarkers(options_.marker_set.markers, generic_);
 }
 
-ScaleResult ScaleSolver::solve(const std::vector<MarkerTrajectories>& static_poses) const {
+ScaleResult ScaleSolver::solve(const std::vector<MarkerTrajectories>& recorded) const {
   ScaleResult result;
+  std::vector<MarkerTrajectories> static_poses = recorded;
+  for (MarkerTrajectories& pose : static_poses) {
+    addVirtualMarkers(options_.marker_set.virtual_markers, pose);
+  }
   stretchModel(static_poses, result);
   if (options_.subject_mass > 0) {
     setTotalMass(result.model, options_.subject_mass, InertiaScaling::kWithMass);
@@ -56,8 +81,7 @@ void ScaleSolver::stretchModel(const std::vector<MarkerTrajectories>& static_pos
           "scaling by marker distances needs a static trial",
           {{}, 0, 0, "static"});
   const MarkerTrajectories nothing;
-  ScaleFactors factors = calcScaleFactors(
-      Model(generic_), static_poses.empty() ? nothing : static_poses.front(), options_);
+  ScaleFactors factors = findFactors(static_poses.empty() ? nothing : static_poses.front(), result);
   result.model = applyScaleFactors(generic_,
                                    factors.bodies,
                                    options_.marker_set.preserve_mass_distribution
@@ -66,6 +90,39 @@ void ScaleSolver::stretchModel(const std::vector<MarkerTrajectories>& static_pos
   result.factors = std::move(factors.bodies);
   result.measurements = std::move(factors.measurements);
   result.warnings = std::move(factors.warnings);
+}
+
+ScaleFactors ScaleSolver::findFactors(const MarkerTrajectories& pose, ScaleResult& result) const {
+  if (!measuresInFittedPose(options_.marker_set)) {
+    return calcScaleFactors(Model(generic_), pose, options_);
+  }
+  require(!options_.marker_set.placements.empty(),
+          ErrorCode::kInputMissing,
+          "measurements in the fitted pose need a placement that says how it is fitted",
+          {{}, 0, 0, "placement"});
+  ModelSpec bones = generic_;
+  bones.muscles.clear();
+  const Model model(bones);
+  ScaleFactors factors;
+  for (const BodySpec& body : bones.bodies) {
+    factors.bodies.push_back(
+        {body.name, Eigen::Vector3d::Constant(options_.marker_set.size_ratio)});
+  }
+  std::optional<Eigen::VectorXd> q;
+  for (double change = 1; change > kFactorTolerance; ++result.pose_rounds) {
+    if (result.pose_rounds == kMaxPoseRounds) {
+      factors.warnings.push_back("the scale factors still change by " + std::to_string(change) +
+                                 " after " + std::to_string(kMaxPoseRounds) +
+                                 " rounds of scaling and fitting");
+      break;
+    }
+    const Model sized(applyScaleFactors(bones, factors.bodies, MassDistribution::kPreserved));
+    q = findStaticPose(sized, options_.marker_set.placements.front(), pose, options_.fit, q);
+    ScaleFactors next = calcScaleFactors(model, pose, options_, q);
+    change = calcChange(factors.bodies, next.bodies);
+    factors = std::move(next);
+  }
+  return factors;
 }
 
 void ScaleSolver::place(const std::vector<MarkerTrajectories>& static_poses,

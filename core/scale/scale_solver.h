@@ -4,6 +4,7 @@
 
 #include "core/data/marker_trajectories.h"
 #include "core/data/model_spec.h"
+#include "core/scale/scale_factors.h"
 #include "core/scale/scale_options.h"
 #include "core/scale/scale_result.h"
 
@@ -11,7 +12,9 @@ namespace gaitmill {
 
 /// Makes a subject's model from a generic one and static poses: factors from marker distances and
 /// manual values, the stretched model, its mass, and its markers placed on one pose after the other
-/// (spec/scale.md). Strength is a step of its own, after residual reduction: see strength.h.
+/// (spec/scale.md). Where measurements are to be taken in the fitted pose, scaling and fitting
+/// repeat until the factors change by less than 1e-4 (spec/scale.md 7). Strength is a step of its
+/// own, after residual reduction: see strength.h.
 class ScaleSolver {
  public:
   /// @throws Error kInputValue
@@ -25,6 +28,7 @@ class ScaleSolver {
 
  private:
   void stretchModel(const std::vector<MarkerTrajectories>& static_poses, ScaleResult& result) const;
+  ScaleFactors findFactors(const MarkerTrajectories& pose, ScaleResult& result) const;
   void place(const std::vector<MarkerTrajectories>& static_poses, ScaleResult& result) const;
   void overrideMuscles(ModelSpec& model) const;
 

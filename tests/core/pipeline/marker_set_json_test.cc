@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/io/files.h"
+#include "tests/support/model_files.h"
 #include "tests/support/tolerance.h"
 
 namespace gaitmill {
@@ -117,6 +118,23 @@ TEST(MarkerSetJson, FaultsNameThePathOfTheField) {
           [{"coordinate": "c", "weight": 1, "value_m": 2, "value_deg": 1}]}})",
        ErrorCode::kSettingsValue,
        "ik.coordinate_tasks[0].value_deg"},
+      {R"({"name": "x", "virtual_markers": [{"name": "v", "rule": "guess", "sources": ["A"]}]})",
+       ErrorCode::kSettingsValue,
+       "virtual_markers[0].rule"},
+      {R"({"name": "x", "virtual_markers":
+          [{"name": "v", "rule": "harrington_2007_left", "sources": ["A", "B"]}]})",
+       ErrorCode::kSettingsValue,
+       "virtual_markers[0].sources"},
+      {R"({"name": "x", "scale": {"size_ratio": 0}})",
+       ErrorCode::kSettingsValue,
+       "scale.size_ratio"},
+      {R"({"name": "x", "scale": {"measurements": [{"name": "m", "bodies": ["b"],
+          "pairs": [["A", "B"]], "limit": {"measurement": "n", "min_ratio": 2, "max_ratio": 1}}]}})",
+       ErrorCode::kSettingsValue,
+       "scale.measurements[0].limit.max_ratio"},
+      {R"({"name": "x", "placement": [{"min_visible_fraction": 1.5}]})",
+       ErrorCode::kSettingsValue,
+       "placement[0].min_visible_fraction"},
   };
   for (const Case& bad : cases) {
     const Error error = findFault(bad.document);
@@ -124,6 +142,43 @@ TEST(MarkerSetJson, FaultsNameThePathOfTheField) {
     EXPECT_EQ(error.where().field, bad.field) << bad.document;
     EXPECT_EQ(error.where().file, "set.json");
   }
+}
+
+/// A set in which every field has a value of its own.
+constexpr const char* kFullSet = R"({"name": "full", "description": "all",
+  "markers": [{"name": "K", "body": "femur_r", "location_m": [0, -0.4, 0], "fixed": true}],
+  "virtual_markers": [{"name": "K", "rule": "mean", "sources": ["A", "B"]},
+                      {"name": "H", "rule": "harrington_2007_left", "sources": ["A", "B", "C"]}],
+  "scale": {"order": ["manual", "measurements"], "time_range_s": [0.5, 1], "size_ratio": 1.07,
+    "preserve_mass_distribution": false,
+    "manual": [{"bodies": ["hand_r"], "factors": [1, 2, 3]}],
+    "measurements": [{"name": "m", "pairs": [["A", "B"]], "bodies": ["femur_r"], "axes": "XZ",
+      "required": false, "in_fitted_pose": true, "alternative_of": "g", "min_factor": 0.7,
+      "max_factor": 1.4, "limit": {"measurement": "n", "min_ratio": 0.8, "max_ratio": 1.2}}]},
+  "placement": [{"time_range_s": [0, 2], "min_visible_fraction": 0.5, "weights": {"A": 3},
+    "coordinate_tasks": [{"coordinate": "knee_angle_r", "weight": 2, "value_deg": 5},
+                         {"coordinate": "pelvis_ty", "weight": 1, "value_m": 0.9}],
+    "ranges": [{"coordinate": "pelvis_rotation", "min_deg": -180, "max_deg": 180},
+               {"coordinate": "pelvis_tx", "min_m": -9}]}],
+  "ik": {"weights": {"B": 4}}})";
+
+TEST(MarkerSetJson, WrittenSetReadsBackTheSame) {
+  const std::string once = writeMarkerSet(read(kFullSet), readOwnModel());
+  const MarkerSetSpec set = read(once);
+  EXPECT_EQ(writeMarkerSet(set, readOwnModel()), once);
+  EXPECT_EQ(set.virtual_markers[1].rule, VirtualMarkerSpec::Rule::kLeftHipCenter);
+  EXPECT_EQ(set.virtual_markers[1].sources.size(), 3U);
+  EXPECT_EQ(set.size_ratio, 1.07);
+  const MeasurementSpec& measurement = set.measurements.at(0);
+  EXPECT_TRUE(measurement.in_fitted_pose);
+  EXPECT_EQ(measurement.alternative_of, "g");
+  EXPECT_EQ(measurement.limit->max_ratio, 1.2);
+  EXPECT_EQ(measurement.max_factor, 1.4);
+  EXPECT_EQ(set.placements.at(0).min_visible_fraction, 0.5);
+  EXPECT_NEAR(*set.placements[0].tasks.coordinates.at(0).value, toRadians(5), tol(1e-15));
+  EXPECT_EQ(*set.placements[0].tasks.coordinates.at(1).value, 0.9);
+  EXPECT_EQ(set.placements[0].tasks.ranges.at(1).min, -9);
+  EXPECT_EQ(set.ik.markers.at(0).weight, 4);
 }
 
 TEST(MarkerSetJson, ShippedSetsHaveTheirPublishedShape) {

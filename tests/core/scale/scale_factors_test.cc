@@ -38,9 +38,23 @@ MarkerTrajectories makeTrial(double scale) {
 
 ScaleOptions makeOptions() {
   ScaleOptions options;
-  options.marker_set.measurements.push_back(
-      {"length", {{"A", "B"}}, {"thigh"}, {false, true, false}, true});
+  MeasurementSpec length;
+  length.name = "length";
+  length.pairs = {{"A", "B"}};
+  length.bodies = {"thigh"};
+  length.axes = {false, true, false};
+  options.marker_set.measurements.push_back(length);
   return options;
+}
+
+/// A to C, across the thigh.
+MeasurementSpec makeWidth() {
+  MeasurementSpec width;
+  width.name = "width";
+  width.pairs = {{"A", "C"}};
+  width.bodies = {"thigh"};
+  width.axes = {false, false, true};
+  return width;
 }
 
 TEST(ScaleFactors, MeanOfThePairsOnTheNamedAxesOnly) {
@@ -106,7 +120,8 @@ TEST(ScaleFactors, OptionalPairThatCannotBeMeasuredIsAWarning) {
   const ScaleFactors factors = calcScaleFactors(Model(makeModel()), makeTrial(1.1), options);
   EXPECT_EQ(factors.bodies[0].factors, Eigen::Vector3d::Ones());
   EXPECT_EQ(factors.measurements[0].factor, -1);
-  EXPECT_EQ(factors.warnings.size(), 1U);
+  ASSERT_EQ(factors.warnings.size(), 2U);
+  EXPECT_NE(factors.warnings[1].find("nothing measures thigh"), std::string::npos);
 }
 
 TEST(ScaleFactors, RangeReachesFromTheRowBeforeToTheRowAfter) {
@@ -127,6 +142,62 @@ TEST(ScaleFactors, UnusualFactorIsAWarning) {
   const ScaleFactors factors = calcScaleFactors(Model(makeModel()), makeTrial(1.5), makeOptions());
   ASSERT_EQ(factors.warnings.size(), 1U);
   EXPECT_NE(factors.warnings[0].find("'thigh'"), std::string::npos);
+}
+
+TEST(ScaleFactors, FirstAlternativeThatIsPlausibleCounts) {
+  const Model model(makeModel());
+  ScaleOptions options = makeOptions();
+  options.marker_set.measurements[0].alternative_of = "size";
+  options.marker_set.measurements[0].min_factor = 0.7;
+  options.marker_set.measurements[0].max_factor = 1.4;
+  options.marker_set.measurements.push_back(makeWidth());
+  options.marker_set.measurements[1].alternative_of = "size";
+  const ScaleFactors first = calcScaleFactors(model, makeTrial(1.1), options);
+  EXPECT_EQ(first.measurements[0].use, MeasurementUse::kApplied);
+  EXPECT_EQ(first.measurements[1].use, MeasurementUse::kNotNeeded);
+  EXPECT_NEAR(first.bodies[0].factors.y(), 1.1, tol(1e-12));
+  EXPECT_EQ(first.bodies[0].factors.z(), 1.0);
+
+  MarkerTrajectories wrong = makeTrial(1.1);
+  wrong.positions.col(4) *= 2;
+  const ScaleFactors second = calcScaleFactors(model, wrong, options);
+  EXPECT_EQ(second.measurements[0].use, MeasurementUse::kRefused);
+  EXPECT_EQ(second.measurements[1].use, MeasurementUse::kApplied);
+  EXPECT_EQ(second.bodies[0].factors.y(), 1.0);
+  EXPECT_NEAR(second.bodies[0].factors.z(), 1.1, tol(1e-12));
+  ASSERT_FALSE(second.warnings.empty());
+  EXPECT_NE(second.warnings[0].find("A to B 88.0 cm against 40.0 cm"), std::string::npos)
+      << second.warnings[0];
+}
+
+TEST(ScaleFactors, FactorIsLimitedBesideAnother) {
+  const Model model(makeModel());
+  ScaleOptions options = makeOptions();
+  options.marker_set.measurements.push_back(makeWidth());
+  options.marker_set.measurements[1].limit = FactorLimit{"length", 0.9, 1.15};
+  MarkerTrajectories sole = makeTrial(1.1);
+  sole.positions.col(8).setConstant(0.2 * 1.6);
+  const ScaleFactors limited = calcScaleFactors(model, sole, options);
+  EXPECT_EQ(limited.measurements[1].use, MeasurementUse::kLimited);
+  EXPECT_NEAR(limited.bodies[0].factors.z(), 1.15 * 1.1, tol(1e-12));
+  sole.positions.col(8).setConstant(0.2 * 1.2);
+  const ScaleFactors within = calcScaleFactors(model, sole, options);
+  EXPECT_EQ(within.measurements[1].use, MeasurementUse::kApplied);
+  EXPECT_NEAR(within.bodies[0].factors.z(), 1.2, tol(1e-12));
+}
+
+TEST(ScaleFactors, WhatNothingMeasuresTakesTheSizeRatioAndIsNamed) {
+  const Model model(makeModel());
+  ScaleOptions options = makeOptions();
+  options.marker_set.size_ratio = 1.05;
+  options.marker_set.measurements[0].required = false;
+  options.marker_set.measurements[0].pairs[0].second = "nowhere";
+  MarkerTrajectories trial = makeTrial(1.1);
+  const ScaleFactors factors = calcScaleFactors(model, trial, options);
+  EXPECT_EQ(factors.measurements[0].use, MeasurementUse::kUnmeasured);
+  EXPECT_EQ(factors.bodies[0].factors, Eigen::Vector3d::Constant(1.05));
+  ASSERT_EQ(factors.warnings.size(), 2U);
+  EXPECT_NE(factors.warnings[1].find("nothing measures thigh: scaled by 1.050"), std::string::npos);
 }
 
 }  // namespace
