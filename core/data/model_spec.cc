@@ -47,14 +47,22 @@ int ModelSpec::findMarker(const std::string& marker_name) const {
   return findByName(markers, marker_name);
 }
 
-const CoordinateSpec* ModelSpec::findCoordinate(const std::string& coordinate_name) const {
+const JointSpec* ModelSpec::findJointOf(const std::string& coordinate_name) const {
   for (const JointSpec& joint : joints) {
-    const int found = findByName(joint.coordinates, coordinate_name);
-    if (found >= 0) {
-      return &joint.coordinates[static_cast<std::size_t>(found)];
+    if (findByName(joint.coordinates, coordinate_name) >= 0) {
+      return &joint;
     }
   }
   return nullptr;
+}
+
+const CoordinateSpec* ModelSpec::findCoordinate(const std::string& coordinate_name) const {
+  const JointSpec* joint = findJointOf(coordinate_name);
+  if (joint == nullptr) {
+    return nullptr;
+  }
+  const int found = findByName(joint->coordinates, coordinate_name);
+  return &joint->coordinates[static_cast<std::size_t>(found)];
 }
 
 void setTotalMass(ModelSpec& spec, double total_mass, InertiaScaling inertia) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -108,9 +109,21 @@ struct MarkerSpec {
   bool fixed = false;  ///< not moved by marker placement
 };
 
+/// A point that a muscle path runs through, fixed in the frame of a body unless its kind says
+/// otherwise (spec/path.md 1).
 struct PathPointSpec {
+  enum class Kind {
+    kFixed,
+    kConditional,  ///< part of the path only while `coordinate` is in [range_min, range_max]
+    kMoving,  ///< at location_functions of `coordinate` limited to its range, or of 0 without one
+  };
   std::string body;
-  Eigen::Vector3d location = Eigen::Vector3d::Zero();
+  Eigen::Vector3d location = Eigen::Vector3d::Zero();  ///< unused by kMoving
+  Kind kind = Kind::kFixed;
+  std::string coordinate = {};  ///< empty on a kConditional point: never part of the path
+  double range_min = 0;
+  double range_max = 0;
+  std::array<FunctionSpec, 3> location_functions = {};  ///< x, y, z of a kMoving point
 };
 
 /// One wrap object of a path. The range counts path points from 1, -1 = open end.
@@ -147,9 +160,37 @@ struct MuscleCurvesSpec {
   double tendon_curviness = 0.5;
 };
 
+/// Parameters of the curves of Thelen (2003), with the class's defaults (spec/muscle.md 10).
+struct ThelenCurvesSpec {
+  double tendon_strain_at_one_force = 0.04;  ///< e0T
+  double passive_strain_at_one_force = 0.6;  ///< e0M
+  double active_shape = 0.45;                ///< gamma, width of the active force-length curve
+  double passive_shape = 5;                  ///< kPE
+  double velocity_shape = 0.25;              ///< Af
+  double max_eccentric_force = 1.4;          ///< Flen
+  double linear_above_force = 0.95;          ///< share of Flen above which force-velocity is a line
+};
+
+/// What a Schutte muscle states beside its size (Schutte et al. 1993). A curve that is not stated
+/// is the model's own; abscissae are normalised fiber length, or tendon strain.
+struct SchutteCurvesSpec {
+  double excitation_rate = 76.67;     ///< of activation while it rises, per unit excitation [1/s]
+  double activation_rate = 14.59854;  ///< [1/s]
+  std::optional<FunctionSpec> active_force_length = {};
+  std::optional<FunctionSpec> passive_force_length = {};
+  std::optional<FunctionSpec> tendon_force_strain = {};
+};
+
 enum class TendonKind { kElastic, kRigid };
 
-/// One Hill-type muscle-tendon unit after Millard et al. (2013).
+/// Whose equations a muscle follows, and with which of its curve parameters.
+enum class MuscleKind {
+  kMillard2012,  ///< `curves`
+  kThelen2003,   ///< `thelen`; no fiber damping, always an elastic tendon
+  kSchutte1993,  ///< `schutte`; time constants of activation unused
+};
+
+/// One Hill-type muscle-tendon unit.
 struct MuscleSpec {
   std::string name;
   double max_isometric_force = 0;             ///< F0M [N] > 0
@@ -157,7 +198,7 @@ struct MuscleSpec {
   double tendon_slack_length = 0;             ///< lsT [m] > 0
   double pennation_at_optimal = 0;            ///< alpha0 [rad] in [0, pi/2)
   double max_contraction_velocity = 10;       ///< vmax [optimal fiber lengths / s]
-  double fiber_damping = 0.1;                 ///< beta [-]
+  double fiber_damping = 0.1;                 ///< beta [-]; none in Thelen's model
   double activation_time_constant = 0.010;    ///< [s]
   double deactivation_time_constant = 0.040;  ///< [s]
   double minimum_activation = 0.01;
@@ -170,6 +211,9 @@ struct MuscleSpec {
   MuscleCurvesSpec curves;
   std::vector<PathPointSpec> path;
   std::vector<PathWrapSpec> wraps;
+  MuscleKind kind = MuscleKind::kMillard2012;
+  ThelenCurvesSpec thelen = {};
+  SchutteCurvesSpec schutte = {};
 };
 
 /// An ideal actuator: generalized force, point force or torque = control * optimal_force.
@@ -219,6 +263,8 @@ struct ModelSpec {
   int findMarker(const std::string& marker_name) const;
   /// Coordinate of that name in any joint, or null.
   const CoordinateSpec* findCoordinate(const std::string& coordinate_name) const;
+  /// The joint that has it, or null.
+  const JointSpec* findJointOf(const std::string& coordinate_name) const;
 };
 
 /// Multiplies every body mass so that the total becomes `total_mass` [kg]; inertias scale alike if

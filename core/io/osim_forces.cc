@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 #include "core/base/units.h"
@@ -80,27 +81,42 @@ double readField(const OsimElement& muscle, const MuscleField& field) {
 
 void readControlLimits(const OsimElement& muscle, MuscleSpec& spec) {
   // The default is the class's minimum activation, whatever minimum this muscle states.
-  spec.min_control = muscle.number("min_control", 0.01);
+  const double fallback = spec.kind == MuscleKind::kSchutte1993 ? 0.0 : 0.01;
+  spec.min_control = muscle.number("min_control", fallback);
   spec.max_control = muscle.number("max_control", 1.0);
   if (muscle.document().version() < kFirstVersionWithMeantControls && spec.min_control == 0.0) {
-    spec.min_control = 0.01;
+    spec.min_control = fallback;
   }
   spec.min_control = limitedControl(spec.min_control);
   spec.max_control = limitedControl(spec.max_control);
 }
 
-/// Class defaults of Millard2012EquilibriumMuscle: spec/muscle.md 2.
+struct MuscleType {
+  std::string_view name;
+  MuscleKind kind;
+};
+constexpr std::array<MuscleType, 4> kMuscleTypes = {{
+    {"Millard2012EquilibriumMuscle", MuscleKind::kMillard2012},
+    {"Thelen2003Muscle", MuscleKind::kThelen2003},
+    {"Schutte1993Muscle_Deprecated", MuscleKind::kSchutte1993},
+    {"Schutte1993Muscle", MuscleKind::kSchutte1993},
+}};
+
+const MuscleType* findMuscleType(const OsimElement& force) {
+  const auto* const found =
+      std::find_if(kMuscleTypes.begin(), kMuscleTypes.end(), [&](const MuscleType& type) {
+        return force.type() == type.name;
+      });
+  return found == kMuscleTypes.end() ? nullptr : found;
+}
+
+/// What all kinds of muscles state, with the class defaults of spec/muscle.md 2.
 void readMuscleParameters(const OsimElement& muscle, MuscleSpec& spec) {
   spec.max_isometric_force = readField(muscle, {"max_isometric_force", 0, false, 1000});
   spec.optimal_fiber_length = readField(muscle, {"optimal_fiber_length", 0, false, 0.1});
   spec.tendon_slack_length = readField(muscle, {"tendon_slack_length", 0, false, 0.2});
   spec.pennation_at_optimal = readField(muscle, {"pennation_angle_at_optimal", 0, true, 0});
   spec.max_contraction_velocity = readField(muscle, {"max_contraction_velocity", 0, false, 10});
-  spec.fiber_damping = readField(muscle, {"fiber_damping", 0, true, 0.1});
-  spec.activation_time_constant = readField(muscle, {"activation_time_constant", 0, false, 0.010});
-  spec.deactivation_time_constant =
-      readField(muscle, {"deactivation_time_constant", 0, false, 0.040});
-  spec.minimum_activation = readField(muscle, {"minimum_activation", 0, true, 0.01});
   spec.default_activation = readField(muscle, {"default_activation", 0, true, 0.05});
   spec.default_fiber_length = readField(muscle, {"default_fiber_length", 0, false, 0.1});
   spec.maximum_pennation = readField(muscle, {"maximum_pennation_angle", 0, false, std::acos(0.1)});
@@ -111,8 +127,6 @@ void readMuscleParameters(const OsimElement& muscle, MuscleSpec& spec) {
                   ": pennation_angle_at_optimal must be below a right angle, in "
                   "radians");
   }
-  spec.tendon =
-      muscle.boolean("ignore_tendon_compliance", false) ? TendonKind::kRigid : TendonKind::kElastic;
   if (muscle.boolean("ignore_activation_dynamics", false)) {
     muscle.fail(ErrorCode::kModelUnsupported,
                 muscle.describe() + ": muscles without activation dynamics cannot be simulated");
@@ -171,16 +185,143 @@ void readTendonCurve(const OsimElement& curve, MuscleCurvesSpec& spec) {
   spec.tendon_curviness = curve.number("curviness", 0.5);
 }
 
-PathPointSpec readPathPoint(const OsimElement& point, const OsimFrames& frames) {
-  if (point.type() != "PathPoint") {
+void readMillard(const OsimElement& muscle, MuscleSpec& spec) {
+  spec.max_contraction_velocity = readField(muscle, {"max_contraction_velocity", 0, false, 10});
+  spec.fiber_damping = readField(muscle, {"fiber_damping", 0, true, 0.1});
+  spec.activation_time_constant = readField(muscle, {"activation_time_constant", 0, false, 0.010});
+  spec.deactivation_time_constant =
+      readField(muscle, {"deactivation_time_constant", 0, false, 0.040});
+  spec.minimum_activation = readField(muscle, {"minimum_activation", 0, true, 0.01});
+  spec.tendon =
+      muscle.boolean("ignore_tendon_compliance", false) ? TendonKind::kRigid : TendonKind::kElastic;
+  readActiveCurve(muscle.property("ActiveForceLengthCurve"), spec.curves);
+  readForceVelocityCurve(muscle.property("ForceVelocityCurve"), spec.curves);
+  readPassiveCurve(muscle.property("FiberForceLengthCurve"), spec.curves);
+  readTendonCurve(muscle.property("TendonForceLengthCurve"), spec.curves);
+}
+
+/// Class defaults of Thelen2003Muscle: spec/muscle.md 10.
+void readThelen(const OsimElement& muscle, MuscleSpec& spec) {
+  spec.max_contraction_velocity = readField(muscle, {"max_contraction_velocity", 0, false, 10});
+  spec.fiber_damping = 0;
+  spec.activation_time_constant = readField(muscle, {"activation_time_constant", 0, false, 0.015});
+  spec.deactivation_time_constant =
+      readField(muscle, {"deactivation_time_constant", 0, false, 0.050});
+  spec.minimum_activation = readField(muscle, {"minimum_activation", 0.01, true, 0.01});
+  if (muscle.boolean("ignore_tendon_compliance", false)) {
+    muscle.property("ignore_tendon_compliance")
+        .fail(ErrorCode::kModelUnsupported,
+              muscle.describe() + ": a muscle of this type cannot have a rigid tendon");
+  }
+  ThelenCurvesSpec& curves = spec.thelen;
+  curves.tendon_strain_at_one_force = readField(muscle, {"FmaxTendonStrain", 0, false, 0.04});
+  curves.passive_strain_at_one_force = readField(muscle, {"FmaxMuscleStrain", 0, false, 0.6});
+  curves.active_shape = readField(muscle, {"KshapeActive", 0, false, 0.45});
+  curves.passive_shape = readField(muscle, {"KshapePassive", 0, false, 5});
+  curves.velocity_shape = readField(muscle, {"Af", 0, false, 0.25});
+  curves.max_eccentric_force = readField(muscle, {"Flen", 1, false, 1.4});
+  curves.linear_above_force = readField(muscle, {"fv_linear_extrap_threshold", 0, false, 0.95});
+}
+
+std::optional<FunctionSpec> readCurve(const OsimElement& muscle, const char* tag) {
+  const OsimElement function = muscle.objectProperty(tag, {});
+  return function ? std::optional<FunctionSpec>(readFunction(function, muscle)) : std::nullopt;
+}
+
+/// Class defaults of Schutte1993Muscle_Deprecated, which states time in units of its time scale and
+/// takes the inverse of that for the maximum contraction velocity.
+void readSchutte(const OsimElement& muscle, MuscleSpec& spec) {
+  const double time_scale = readField(muscle, {"time_scale", 0, false, 0.1});
+  spec.max_contraction_velocity = 1 / time_scale;
+  spec.fiber_damping = readField(muscle, {"damping", 0, false, 0.1});
+  spec.minimum_activation = 0;
+  spec.schutte.excitation_rate = readField(muscle, {"activation1", 0, true, 7.667}) / time_scale;
+  spec.schutte.activation_rate = readField(muscle, {"activation2", 0, true, 1.459854}) / time_scale;
+  spec.schutte.active_force_length = readCurve(muscle, "active_force_length_curve");
+  spec.schutte.passive_force_length = readCurve(muscle, "passive_force_length_curve");
+  spec.schutte.tendon_force_strain = readCurve(muscle, "tendon_force_length_curve");
+}
+
+/// Coordinate that a path point names, "" if it names none.
+std::string readPointCoordinate(const OsimElement& point,
+                                const char* socket,
+                                const std::vector<JointSpec>& joints) {
+  const OsimElement reference = point.socket(socket, {socket});
+  const std::string name = reference ? lastComponent(reference.ownText()) : "";
+  if (name.empty() || name == "Unassigned") {
+    return "";
+  }
+  requireCoordinate(reference, name, joints);
+  return name;
+}
+
+void readCondition(const OsimElement& point,
+                   const std::vector<JointSpec>& joints,
+                   PathPointSpec& spec) {
+  spec.kind = PathPointSpec::Kind::kConditional;
+  spec.coordinate = readPointCoordinate(point, "coordinate", joints);
+  if (const OsimElement range = point.property("range")) {
+    const std::vector<double> ends = range.ownNumbers(2);
+    spec.range_min = ends[0];
+    spec.range_max = ends[1];
+  }
+}
+
+/// The functions of a moving point, which are of one and the same coordinate (spec/path.md 1).
+void readMotion(const OsimElement& point,
+                const std::vector<JointSpec>& joints,
+                PathPointSpec& spec) {
+  struct Component {
+    const char* coordinate;
+    const char* function;
+  };
+  constexpr std::array<Component, 3> kComponents = {{{"x_coordinate", "x_location"},
+                                                     {"y_coordinate", "y_location"},
+                                                     {"z_coordinate", "z_location"}}};
+  spec.kind = PathPointSpec::Kind::kMoving;
+  for (std::size_t axis = 0; axis < kComponents.size(); ++axis) {
+    const std::string name = readPointCoordinate(point, kComponents[axis].coordinate, joints);
+    if (axis > 0 && name != spec.coordinate) {
+      point.fail(ErrorCode::kModelUnsupported,
+                 point.describe() + " moves with '" + spec.coordinate + "' and with '" + name +
+                     "'; a moving point follows one coordinate");
+    }
+    spec.coordinate = name;
+    if (const OsimElement function = point.objectProperty(kComponents[axis].function, {})) {
+      spec.location_functions[axis] = readFunction(function, point);
+    }
+  }
+}
+
+PathPointSpec readPathPoint(const OsimElement& point,
+                            const OsimFrames& frames,
+                            const std::vector<JointSpec>& joints) {
+  const bool moves = point.type() == "MovingPathPoint";
+  const bool depends = point.type() == "ConditionalPathPoint";
+  if (!moves && !depends && point.type() != "PathPoint") {
     point.fail(ErrorCode::kModelUnsupported,
-               point.describe() + ": of the path points only fixed ones can be simulated here");
+               point.describe() + " is of a type of path point that cannot be simulated here");
   }
   const OsimElement frame = point.socket("parent_frame", {"body"});
   if (!frame) {
     point.fail(ErrorCode::kModelElement, point.describe() + " names no parent frame");
   }
-  return frames.resolvePoint(frame, point.vector3("location", Vector3d::Zero()));
+  if (!moves) {
+    PathPointSpec spec = frames.resolvePoint(frame, point.vector3("location", Vector3d::Zero()));
+    if (depends) {
+      readCondition(point, joints, spec);
+    }
+    return spec;
+  }
+  const FrameSpec place = frames.resolve(frame, "");
+  if (!place.translation.isZero(0) || !place.orientation.isZero(0)) {
+    frame.fail(ErrorCode::kModelUnsupported,
+               point.describe() + " moves in a frame that is not a body's own");
+  }
+  PathPointSpec spec;
+  spec.body = place.body;
+  readMotion(point, joints, spec);
+  return spec;
 }
 
 PathWrapSpec readPathWrap(const OsimElement& wrap, const std::vector<std::string>& wrap_objects) {
@@ -204,6 +345,7 @@ PathWrapSpec readPathWrap(const OsimElement& wrap, const std::vector<std::string
 
 void readPath(const OsimElement& muscle,
               const OsimFrames& frames,
+              const std::vector<JointSpec>& joints,
               const std::vector<std::string>& wrap_objects,
               MuscleSpec& spec) {
   const OsimElement path = muscle.objectProperty("path", {"GeometryPath"});
@@ -213,7 +355,7 @@ void readPath(const OsimElement& muscle,
               muscle.describe() + " has no GeometryPath");
   }
   for (const OsimElement& point : path.objectsOf("PathPointSet")) {
-    spec.path.push_back(readPathPoint(point, frames));
+    spec.path.push_back(readPathPoint(point, frames, joints));
   }
   if (spec.path.size() < 2) {
     path.fail(ErrorCode::kModelElement,
@@ -273,17 +415,32 @@ std::vector<WrapCylinderSpec> readWrapCylinders(const OsimElement& owner) {
 
 MuscleSpec readMuscle(const OsimElement& muscle,
                       const OsimFrames& frames,
+                      const std::vector<JointSpec>& joints,
                       const std::vector<std::string>& wrap_objects) {
   MuscleSpec spec;
   spec.name = muscle.requireName();
+  const MuscleType* type = findMuscleType(muscle);
+  check(type != nullptr, "the element is a muscle");
+  spec.kind = type->kind;
   readMuscleParameters(muscle, spec);
   readControlLimits(muscle, spec);
-  readActiveCurve(muscle.property("ActiveForceLengthCurve"), spec.curves);
-  readForceVelocityCurve(muscle.property("ForceVelocityCurve"), spec.curves);
-  readPassiveCurve(muscle.property("FiberForceLengthCurve"), spec.curves);
-  readTendonCurve(muscle.property("TendonForceLengthCurve"), spec.curves);
-  readPath(muscle, frames, wrap_objects, spec);
+  switch (spec.kind) {
+    case MuscleKind::kMillard2012:
+      readMillard(muscle, spec);
+      break;
+    case MuscleKind::kThelen2003:
+      readThelen(muscle, spec);
+      break;
+    case MuscleKind::kSchutte1993:
+      readSchutte(muscle, spec);
+      break;
+  }
+  readPath(muscle, frames, joints, wrap_objects, spec);
   return spec;
+}
+
+bool isMuscle(const OsimElement& force) {
+  return findMuscleType(force) != nullptr;
 }
 
 bool isActuator(const OsimElement& force) {

@@ -14,10 +14,15 @@ namespace gaitmill {
 /// Wrap objects of a body or of ground. @throws Error kModelUnsupported unless all are cylinders
 std::vector<WrapCylinderSpec> readWrapCylinders(const OsimElement& owner);
 
+/// True for the types of muscles that can be simulated.
+bool isMuscle(const OsimElement& force);
+
+/// @param muscle        an element for which isMuscle() is true
 /// @param wrap_objects  names of all wrap objects of the model
 /// @throws Error kMuscleParameter, kModelReference, kModelUnsupported, kModelValue
 MuscleSpec readMuscle(const OsimElement& muscle,
                       const OsimFrames& frames,
+                      const std::vector<JointSpec>& joints,
                       const std::vector<std::string>& wrap_objects);
 
 /// True for the three types of ideal actuators (and their names in old documents).

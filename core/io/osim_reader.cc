@@ -259,9 +259,9 @@ void ModelReader::readMarkers() {
 void ModelReader::readForce(const OsimElement& force) {
   if (!isApplied(force)) {
     warn(force, "is switched off in the document and was left out");
-  } else if (force.type() == "Millard2012EquilibriumMuscle") {
+  } else if (isMuscle(force)) {
     requireNew(force_names_, force);
-    spec_.muscles.push_back(readMuscle(force, frames_, wrap_objects_));
+    spec_.muscles.push_back(readMuscle(force, frames_, spec_.joints, wrap_objects_));
   } else if (isActuator(force)) {
     requireNew(force_names_, force);
     spec_.actuators.push_back(readActuator(force, frames_, spec_.joints));

@@ -9,13 +9,14 @@
 namespace gaitmill {
 
 /// Reads a model document of version 30000 to 40600: bodies, joints, coordinates, couplers,
-/// markers, Millard muscles with cylinder wraps, ideal actuators and muscle groups, with the
-/// inherited defaults, sockets and older layouts of spec/model.md. SI units and radians, full
-/// precision of the text (OpenSim rounds offsets and inertias of documents below 30505 to six
-/// digits; this reader does not).
+/// markers, muscles (Millard2012EquilibriumMuscle, Thelen2003Muscle, Schutte1993Muscle_Deprecated)
+/// with fixed, conditional and moving path points and cylinder wraps, ideal actuators and muscle
+/// groups, with the inherited defaults, sockets and older layouts of spec/model.md. SI units and
+/// radians, full precision of the text (OpenSim rounds offsets and inertias of documents below
+/// 30505 to six digits; this reader does not).
 ///
-/// What would change the mechanics but cannot be simulated is refused: other muscle types, moving
-/// or conditional path points, wrap objects other than cylinders, further forces and constraints,
+/// What would change the mechanics but cannot be simulated is refused: other types of muscles and
+/// path points, wrap objects other than cylinders, further forces and constraints,
 /// prescribed coordinates. Two things are left out with a warning: forces that the document itself
 /// switches off, and contact with the floor, whose place the measured ground reaction takes.
 /// Of the geometry the visible meshes of bodies are read, as names of files and scale factors;

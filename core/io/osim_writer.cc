@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -106,6 +107,12 @@ class XmlText {
 
 std::string framePath(const std::string& body) {
   return body == "ground" ? "/ground" : "/bodyset/" + body;
+}
+
+/// "" for no coordinate.
+std::string coordinatePath(const ModelSpec& spec, const std::string& coordinate) {
+  const JointSpec* joint = spec.findJointOf(coordinate);
+  return joint == nullptr ? coordinate : "/jointset/" + joint->name + "/" + coordinate;
 }
 
 double documentLimit(double limit) {
@@ -328,13 +335,50 @@ void writeCouplers(XmlText& xml, const ModelSpec& spec) {
   xml.closeSet();
 }
 
-void writePath(XmlText& xml, const MuscleSpec& muscle) {
+void writeCondition(XmlText& xml, const ModelSpec& spec, const PathPointSpec& point) {
+  xml.text("socket_coordinate", coordinatePath(spec, point.coordinate));
+  xml.numbers("range", std::array<double, 2>{point.range_min, point.range_max});
+}
+
+void writeMotion(XmlText& xml, const ModelSpec& spec, const PathPointSpec& point) {
+  constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
+  for (const std::string axis : kAxes) {
+    xml.text(("socket_" + axis + "_coordinate").c_str(), coordinatePath(spec, point.coordinate));
+  }
+  for (std::size_t i = 0; i < kAxes.size(); ++i) {
+    xml.open(std::string(kAxes[i]) + "_location");
+    writeFunction(xml, point.location_functions[i], "");
+    xml.close();
+  }
+}
+
+const char* pathPointType(PathPointSpec::Kind kind) {
+  switch (kind) {
+    case PathPointSpec::Kind::kFixed:
+      return "PathPoint";
+    case PathPointSpec::Kind::kConditional:
+      return "ConditionalPathPoint";
+    case PathPointSpec::Kind::kMoving:
+      return "MovingPathPoint";
+  }
+  return "PathPoint";
+}
+
+void writePath(XmlText& xml, const ModelSpec& spec, const MuscleSpec& muscle) {
   xml.open("GeometryPath", "geometrypath");
   xml.openSet("PathPointSet", "");
   for (std::size_t i = 0; i < muscle.path.size(); ++i) {
-    xml.open("PathPoint", muscle.name + "-P" + std::to_string(i + 1));
-    xml.text("socket_parent_frame", framePath(muscle.path[i].body));
-    xml.numbers("location", muscle.path[i].location);
+    const PathPointSpec& point = muscle.path[i];
+    xml.open(pathPointType(point.kind), muscle.name + "-P" + std::to_string(i + 1));
+    xml.text("socket_parent_frame", framePath(point.body));
+    if (point.kind == PathPointSpec::Kind::kMoving) {
+      writeMotion(xml, spec, point);
+    } else {
+      xml.numbers("location", point.location);
+    }
+    if (point.kind == PathPointSpec::Kind::kConditional) {
+      writeCondition(xml, spec, point);
+    }
     xml.close();
   }
   xml.closeSet();
@@ -397,26 +441,82 @@ void writeElasticCurves(XmlText& xml, const MuscleCurvesSpec& curves) {
   xml.close();
 }
 
-void writeMuscle(XmlText& xml, const MuscleSpec& muscle) {
-  xml.open("Millard2012EquilibriumMuscle", muscle.name);
+void writeThelenCurves(XmlText& xml, const ThelenCurvesSpec& curves) {
+  xml.number("FmaxTendonStrain", curves.tendon_strain_at_one_force);
+  xml.number("FmaxMuscleStrain", curves.passive_strain_at_one_force);
+  xml.number("KshapeActive", curves.active_shape);
+  xml.number("KshapePassive", curves.passive_shape);
+  xml.number("Af", curves.velocity_shape);
+  xml.number("Flen", curves.max_eccentric_force);
+  xml.number("fv_linear_extrap_threshold", curves.linear_above_force);
+}
+
+// The maximum contraction velocity is the inverse of the time scale in which this class states its
+// rates.
+void writeSchutte(XmlText& xml, const MuscleSpec& muscle) {
+  const double time_scale = 1 / muscle.max_contraction_velocity;
+  xml.number("time_scale", time_scale);
+  xml.number("activation1", muscle.schutte.excitation_rate * time_scale);
+  xml.number("activation2", muscle.schutte.activation_rate * time_scale);
+  xml.number("damping", muscle.fiber_damping);
+  const auto write = [&xml](const char* tag, const std::optional<FunctionSpec>& curve) {
+    if (curve) {
+      xml.open(tag);
+      writeFunction(xml, *curve, "");
+      xml.close();
+    }
+  };
+  write("active_force_length_curve", muscle.schutte.active_force_length);
+  write("passive_force_length_curve", muscle.schutte.passive_force_length);
+  write("tendon_force_length_curve", muscle.schutte.tendon_force_strain);
+}
+
+const char* muscleType(MuscleKind kind) {
+  switch (kind) {
+    case MuscleKind::kMillard2012:
+      return "Millard2012EquilibriumMuscle";
+    case MuscleKind::kThelen2003:
+      return "Thelen2003Muscle";
+    case MuscleKind::kSchutte1993:
+      return "Schutte1993Muscle_Deprecated";
+  }
+  return "Millard2012EquilibriumMuscle";
+}
+
+void writeMuscle(XmlText& xml, const ModelSpec& spec, const MuscleSpec& muscle) {
+  xml.open(muscleType(muscle.kind), muscle.name);
   xml.number("min_control", documentLimit(muscle.min_control));
   xml.number("max_control", documentLimit(muscle.max_control));
-  writePath(xml, muscle);
+  writePath(xml, spec, muscle);
   xml.number("max_isometric_force", muscle.max_isometric_force);
   xml.number("optimal_fiber_length", muscle.optimal_fiber_length);
   xml.number("tendon_slack_length", muscle.tendon_slack_length);
   xml.number("pennation_angle_at_optimal", muscle.pennation_at_optimal);
   xml.number("max_contraction_velocity", muscle.max_contraction_velocity);
-  xml.boolean("ignore_tendon_compliance", muscle.tendon == TendonKind::kRigid);
-  xml.number("fiber_damping", muscle.fiber_damping);
+  if (muscle.kind == MuscleKind::kMillard2012) {
+    xml.boolean("ignore_tendon_compliance", muscle.tendon == TendonKind::kRigid);
+    xml.number("fiber_damping", muscle.fiber_damping);
+  }
   xml.number("default_activation", muscle.default_activation);
   xml.number("default_fiber_length", muscle.default_fiber_length);
-  xml.number("activation_time_constant", muscle.activation_time_constant);
-  xml.number("deactivation_time_constant", muscle.deactivation_time_constant);
-  xml.number("minimum_activation", muscle.minimum_activation);
+  if (muscle.kind != MuscleKind::kSchutte1993) {
+    xml.number("activation_time_constant", muscle.activation_time_constant);
+    xml.number("deactivation_time_constant", muscle.deactivation_time_constant);
+    xml.number("minimum_activation", muscle.minimum_activation);
+  }
   xml.number("maximum_pennation_angle", muscle.maximum_pennation);
-  writeContractileCurves(xml, muscle.curves);
-  writeElasticCurves(xml, muscle.curves);
+  switch (muscle.kind) {
+    case MuscleKind::kMillard2012:
+      writeContractileCurves(xml, muscle.curves);
+      writeElasticCurves(xml, muscle.curves);
+      break;
+    case MuscleKind::kThelen2003:
+      writeThelenCurves(xml, muscle.thelen);
+      break;
+    case MuscleKind::kSchutte1993:
+      writeSchutte(xml, muscle);
+      break;
+  }
   xml.close();
 }
 
@@ -476,7 +576,7 @@ void writeForces(XmlText& xml, const ModelSpec& spec) {
   xml.open("ForceSet", "forceset");
   xml.open("objects");
   for (const MuscleSpec& muscle : spec.muscles) {
-    writeMuscle(xml, muscle);
+    writeMuscle(xml, spec, muscle);
   }
   for (const ActuatorSpec& actuator : spec.actuators) {
     writeActuator(xml, actuator);

@@ -12,6 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/base/where.h"
+#include "core/math/scalar_function.h"
 #include "core/model/wrap_cylinder.h"
 
 namespace gaitmill {
@@ -30,11 +31,36 @@ constexpr int kMaxNodes = kMaxPathPoints + 2 * kMaxWraps;
 /// are first order in their error and shall equal the length's derivative to 1e-8.
 constexpr double kTangentTolerance = 1e-12;
 constexpr int kMaxPasses = 100;
+/// Points closer than this [m] have no direction from one to the other (spec/path.md 3).
+constexpr double kCoincident = 2.01e-14;
 
 struct Point {
   BodyIndex body;
   int slot = 0;  ///< which of the path's distinct bodies
   Vector3d p_B = Vector3d::Zero();
+};
+
+/// A document's limits of a coordinate are met within this [rad|m] (spec/path.md 1).
+constexpr double kConditionTolerance = 1e-5;
+
+/// A point that is part of the path only while its coordinate is in a range.
+struct Condition {
+  int point = 0;
+  int coordinate = -1;  ///< −1 = never
+  double min = 0;
+  double max = 0;
+  bool holds(const Eigen::VectorXd& q) const {
+    return coordinate >= 0 && q[coordinate] >= min && q[coordinate] <= max;
+  }
+};
+
+/// A point whose place on its body is a function of a coordinate, held still beyond its range.
+struct Motion {
+  int point = 0;
+  int coordinate = 0;
+  double min = 0;
+  double max = 0;
+  std::array<ScalarFunction, 3> location;
 };
 
 struct Wrap {
@@ -62,6 +88,8 @@ struct Node {
 
 struct Path {
   std::vector<Point> points;
+  std::vector<Condition> conditions;  ///< by point
+  std::vector<Motion> motions;        ///< by point
   std::vector<Wrap> wraps;
   std::vector<BodyIndex> bodies;
   std::vector<Arm> arms;
@@ -156,6 +184,52 @@ void addWraps(const Model& model, const MuscleSpec& muscle, Path& path) {
   }
 }
 
+void addPoint(const Model& model, const PathPointSpec& spec, Path& path) {
+  const BodyIndex body = model.getBody(spec.body);
+  const int index = static_cast<int>(path.points.size());
+  path.points.push_back({body, findSlot(path, body), spec.location});
+  if (spec.kind == PathPointSpec::Kind::kConditional) {
+    const int c = spec.coordinate.empty() ? -1 : model.getCoordinate(spec.coordinate).value();
+    path.conditions.push_back(
+        {index, c, spec.range_min - kConditionTolerance, spec.range_max + kConditionTolerance});
+  } else if (spec.kind == PathPointSpec::Kind::kMoving && spec.coordinate.empty()) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      path.points.back().p_B[static_cast<Eigen::Index>(axis)] =
+          ScalarFunction(spec.location_functions[axis]).evaluate(0).value;
+    }
+  } else if (spec.kind == PathPointSpec::Kind::kMoving) {
+    const CoordinateIndex c = model.getCoordinate(spec.coordinate);
+    const CoordinateSpec& coordinate = model.coordinate(c);
+    path.motions.push_back({index,
+                            c.value(),
+                            coordinate.range_min,
+                            coordinate.range_max,
+                            {ScalarFunction(spec.location_functions[0]),
+                             ScalarFunction(spec.location_functions[1]),
+                             ScalarFunction(spec.location_functions[2])}});
+  }
+}
+
+/// Finds the coordinates that change the path's length, by moving its bodies against each other or
+/// a point on its body.
+void addArms(const Model& model, Path& path) {
+  const unsigned all = (1U << path.bodies.size()) - 1U;
+  for (int c = 0; c < model.coordinateCount(); ++c) {
+    Arm arm{c, 0};
+    for (std::size_t slot = 0; slot < path.bodies.size(); ++slot) {
+      arm.distal_slots |= model.isDistal(CoordinateIndex(c), path.bodies[slot]) ? 1U << slot : 0U;
+    }
+    // A coordinate that moves all of the path's bodies, or none, leaves its length alone.
+    arm.distal_slots = arm.distal_slots == all ? 0U : arm.distal_slots;
+    const bool moves_point = std::any_of(path.motions.begin(),
+                                         path.motions.end(),
+                                         [c](const Motion& m) { return m.coordinate == c; });
+    if (arm.distal_slots != 0 || moves_point) {
+      path.arms.push_back(arm);
+    }
+  }
+}
+
 Path makePath(const Model& model, const MuscleSpec& muscle) {
   require(muscle.path.size() >= 2 && muscle.path.size() <= kMaxPathPoints &&
               muscle.wraps.size() <= kMaxWraps,
@@ -166,27 +240,18 @@ Path makePath(const Model& model, const MuscleSpec& muscle) {
           atMuscle(muscle.name));
   Path path;
   for (const PathPointSpec& point : muscle.path) {
-    const BodyIndex body = model.getBody(point.body);
-    path.points.push_back({body, findSlot(path, body), point.location});
+    addPoint(model, point, path);
   }
   addWraps(model, muscle, path);
-  for (int c = 0; c < model.coordinateCount(); ++c) {
-    Arm arm{c, 0};
-    for (std::size_t slot = 0; slot < path.bodies.size(); ++slot) {
-      arm.distal_slots |= model.isDistal(CoordinateIndex(c), path.bodies[slot]) ? 1U << slot : 0U;
-    }
-    const unsigned all = (1U << path.bodies.size()) - 1U;
-    // A coordinate that moves all of the path's bodies, or none, leaves its length alone.
-    if (arm.distal_slots != 0 && arm.distal_slots != all) {
-      path.arms.push_back(arm);
-    }
-  }
+  addArms(model, path);
   return path;
 }
 
 /// The cylinder placed in ground for one pose.
 struct PlacedWrap {
   Pose X_GW;
+  int first_point = 0;  ///< of the points that are part of the path, those in the wrap's range
+  int last_point = 0;
   Vector3d toLocal(const Vector3d& p_G) const { return X_GW.R.transpose() * (p_G - X_GW.p); }
 };
 
@@ -204,8 +269,8 @@ Scan scanSegments(const Wrap& wrap, const PlacedWrap& placed, const NodeList& pa
   double least_detour = std::numeric_limits<double>::infinity();
   bool in_range = false;
   for (int i = 0; i + 1 < path.count; ++i) {
-    in_range = in_range || path[i].point == wrap.first_point;
-    if (path[i].point >= wrap.last_point) {
+    in_range = in_range || path[i].point == placed.first_point;
+    if (path[i].point >= placed.last_point) {
       break;
     }
     const bool same_surface = path[i].wrap >= 0 && path[i].wrap == path[i + 1].wrap;
@@ -240,6 +305,9 @@ struct MusclePaths::Impl {
 
   void calcPath(const ModelState& state, std::size_t muscle);
   void placeNodes(const ModelState& state, const Path& path);
+  void moveNode(const ModelState& state, const Path& path, const Motion& motion);
+  void dropInactiveNodes(const ModelState& state, const Path& path);
+  void addMotionArm(const ModelState& state, const Path& path, const Motion& motion, int muscle);
   void wrapOnce(const Path& path, int w);
   void wrapToConvergence(const Path& path);
   void sumPath(const ModelState& state, const Path& path, int muscle);
@@ -252,6 +320,7 @@ struct MusclePaths::Impl {
   std::vector<int> wrap_counts;
   // Workspace of the path at hand.
   NodeList nodes;
+  int point_count = 0;  ///< nodes that are path points
   std::array<PlacedWrap, kMaxWraps> placed;
   std::array<WrapContact::Status, kMaxWraps> last_status{};
   double tangent_move = 0;
@@ -276,6 +345,52 @@ void MusclePaths::Impl::placeNodes(const ModelState& state, const Path& path) {
   }
   for (std::size_t w = 0; w < path.wraps.size(); ++w) {
     placed[w].X_GW = compose(state.pose(path.wraps[w].body), path.wraps[w].X_BW);
+    placed[w].first_point = path.wraps[w].first_point;
+    placed[w].last_point = path.wraps[w].last_point;
+  }
+  for (const Motion& motion : path.motions) {
+    moveNode(state, path, motion);
+  }
+  if (!path.conditions.empty()) {
+    dropInactiveNodes(state, path);
+  }
+  point_count = nodes.count;
+}
+
+void MusclePaths::Impl::moveNode(const ModelState& state, const Path& path, const Motion& motion) {
+  const double x = std::clamp(state.q()[motion.coordinate], motion.min, motion.max);
+  const Vector3d p_B(motion.location[0].evaluate(x).value,
+                     motion.location[1].evaluate(x).value,
+                     motion.location[2].evaluate(x).value);
+  const auto i = static_cast<std::size_t>(motion.point);
+  nodes.nodes[i].p_G = state.pose(path.points[i].body) * p_B;
+}
+
+/// Takes points out whose condition does not hold, and with them the ends of wrap ranges: a range
+/// counts all points of the document, and reaches from the first to the last of those that are left
+/// in it (spec/path.md 4).
+void MusclePaths::Impl::dropInactiveNodes(const ModelState& state, const Path& path) {
+  auto condition = path.conditions.begin();
+  int kept = 0;
+  for (int i = 0; i < nodes.count; ++i) {
+    const bool conditional = condition != path.conditions.end() && condition->point == i;
+    const bool active = !conditional || condition->holds(state.q());
+    condition += conditional ? 1 : 0;
+    if (active) {
+      nodes.nodes[static_cast<std::size_t>(kept++)] = nodes.nodes[static_cast<std::size_t>(i)];
+    }
+  }
+  nodes.count = kept;
+  for (std::size_t w = 0; w < path.wraps.size(); ++w) {
+    placed[w].first_point = std::numeric_limits<int>::max();
+    placed[w].last_point = -1;
+    for (int i = 0; i < nodes.count; ++i) {
+      const int point = nodes[i].point;
+      if (point >= path.wraps[w].first_point && point <= path.wraps[w].last_point) {
+        placed[w].first_point = std::min(placed[w].first_point, point);
+        placed[w].last_point = point;
+      }
+    }
   }
 }
 
@@ -346,7 +461,7 @@ void MusclePaths::Impl::sumPath(const ModelState& state, const Path& path, int m
     const Vector3d d = b.p_G - a.p_G;
     const double distance = d.norm();
     length += distance;
-    if (a.slot == b.slot || distance < 2.01e-14) {
+    if (a.slot == b.slot || distance < kCoincident) {
       continue;
     }
     // A force along the line of a and b has the same moment about the origin from either point.
@@ -366,6 +481,40 @@ void MusclePaths::Impl::sumPath(const ModelState& state, const Path& path, int m
     }
     arms(muscle, arm.coordinate) = state.screws().col(arm.coordinate).dot(distal);
   }
+  for (const Motion& motion : path.motions) {
+    addMotionArm(state, path, motion, muscle);
+  }
+}
+
+/// What the motion of a point on its body adds: tension pulls the point towards both neighbours,
+/// whether they are on its body or not, and does work along dp/dq. Beyond the coordinate's range
+/// the point rests.
+void MusclePaths::Impl::addMotionArm(const ModelState& state,
+                                     const Path& path,
+                                     const Motion& motion,
+                                     int muscle) {
+  const double x = state.q()[motion.coordinate];
+  if (x < motion.min || x > motion.max) {
+    return;
+  }
+  const Vector3d slope_B(motion.location[0].evaluate(x).first,
+                         motion.location[1].evaluate(x).first,
+                         motion.location[2].evaluate(x).first);
+  const Pose& X_GB = state.pose(path.points[static_cast<std::size_t>(motion.point)].body);
+  Vector3d pull = Vector3d::Zero();
+  for (int i = 0; i < nodes.count; ++i) {
+    if (nodes[i].point != motion.point) {
+      continue;
+    }
+    for (const int neighbour : {i - 1, i + 1}) {
+      if (neighbour >= 0 && neighbour < nodes.count) {
+        const Vector3d d = nodes[neighbour].p_G - nodes[i].p_G;
+        const double distance = d.norm();
+        pull += distance < kCoincident ? d : Vector3d(d / distance);
+      }
+    }
+  }
+  arms(muscle, motion.coordinate) += (X_GB.R * slope_B).dot(pull);
 }
 
 void MusclePaths::Impl::calcPath(const ModelState& state, std::size_t muscle) {
@@ -376,7 +525,7 @@ void MusclePaths::Impl::calcPath(const ModelState& state, std::size_t muscle) {
   } else if (path.wraps.size() > 1) {
     wrapToConvergence(path);
   }
-  wrap_counts[muscle] = (nodes.count - static_cast<int>(path.points.size())) / 2;
+  wrap_counts[muscle] = (nodes.count - point_count) / 2;
   sumPath(state, path, static_cast<int>(muscle));
 }
 

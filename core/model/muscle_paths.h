@@ -19,7 +19,11 @@ struct PathVertex {
 
 /// Lengths and moment arms of all muscle paths at once, wrapped over cylinders as true geodesics
 /// (spec/path.md, exact mode: closed form per cylinder, several cylinders iterated to convergence).
-/// One per thread. Stateless between calls; calc() does not allocate.
+/// Moving points contribute to lengths, speeds and moment arms by their own motion on their body;
+/// beyond the range of their coordinate they rest, with derivative 0 (OpenSim extrapolates there).
+/// Conditional points come and go with the pose: lengths and arms jump at the ends of their ranges,
+/// which count as inside within 1e-5. The arms are the derivatives of the path as it is, points
+/// fixed in number. One per thread. Stateless between calls; calc() does not allocate.
 class MusclePaths {
  public:
   explicit MusclePaths(const Model& model);  ///< keeps a reference to the model

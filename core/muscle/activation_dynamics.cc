@@ -32,9 +32,17 @@ double propagateGap(double gap, double excitation, double relative_duration) {
   return gap * std::exp(std::min(s, 0.0));
 }
 
+// Rate at which the activation approaches a constant excitation [1/s]: constant until it is there.
+double calcSchutteRate(const ActivationDynamics& d, double activation, double excitation) {
+  return d.activation_rate + (excitation > activation ? d.excitation_rate * excitation : 0.0);
+}
+
 }  // namespace
 
 double ActivationDynamics::calcRate(double activation, double excitation) const noexcept {
+  if (law == Law::kSchutte1993) {
+    return (excitation - activation) * calcSchutteRate(*this, activation, excitation);
+  }
   const double weight = kBase + kGain * activation;
   const double tau = excitation > activation ? activation_time_constant * weight
                                              : deactivation_time_constant / weight;
@@ -44,6 +52,10 @@ double ActivationDynamics::calcRate(double activation, double excitation) const 
 double ActivationDynamics::propagate(double activation,
                                      double excitation,
                                      double duration) const noexcept {
+  if (law == Law::kSchutte1993) {
+    const double rate = calcSchutteRate(*this, activation, excitation);
+    return excitation + (activation - excitation) * std::exp(-rate * duration);
+  }
   if (excitation > activation) {
     return excitation -
            propagateGap(excitation - activation, excitation, duration / activation_time_constant);

@@ -18,6 +18,8 @@ namespace {
 constexpr double kNegligible = 2.0097183471152322e-14;
 // Below this damping a muscle counts as undamped, which this product does not offer.
 constexpr double kMinDamping = 0.001;
+// Without damping the balance loses its root at activation 0 (spec/muscle.md 10).
+constexpr double kMinThelenActivation = 0.01;
 // Root finding stops at a step of this size relative to the normalised velocity or length; or at a
 // Newton step of the other, which leaves an error of its square.
 constexpr double kRoundOff = 4e-16;
@@ -45,10 +47,17 @@ void validate(const MuscleSpec& s) {
                s.pennation_at_optimal);
   requireField(
       s.max_contraction_velocity > 0, s, "max_contraction_velocity", s.max_contraction_velocity);
-  requireField(s.fiber_damping >= (s.tendon == TendonKind::kRigid ? 0.0 : kMinDamping),
+  const bool needs_damping = s.tendon != TendonKind::kRigid && s.kind != MuscleKind::kThelen2003;
+  requireField(
+      s.fiber_damping >= (needs_damping ? kMinDamping : 0.0), s, "fiber_damping", s.fiber_damping);
+  requireField(s.kind != MuscleKind::kThelen2003 || s.tendon == TendonKind::kElastic,
                s,
-               "fiber_damping",
-               s.fiber_damping);
+               "ignore_tendon_compliance",
+               1);
+  requireField(s.kind != MuscleKind::kThelen2003 || s.minimum_activation >= kMinThelenActivation,
+               s,
+               "minimum_activation",
+               s.minimum_activation);
   requireField(
       s.activation_time_constant > 0, s, "activation_time_constant", s.activation_time_constant);
   requireField(s.deactivation_time_constant > 0,
@@ -104,15 +113,16 @@ double solveIncreasing(const Function& residual, double x, double scale) {
 }  // namespace
 
 Muscle::Muscle(const MuscleSpec& spec, std::shared_ptr<const MuscleCurves> curves)
-    : curves_(std::move(curves)) {
+    : kind_(spec.kind), curves_(std::move(curves)) {
   validate(spec);
+  makeOwnCurves(spec);
   activation_dynamics_.activation_time_constant = spec.activation_time_constant;
   activation_dynamics_.deactivation_time_constant = spec.deactivation_time_constant;
   max_force_ = spec.max_isometric_force;
   optimal_length_ = spec.optimal_fiber_length;
   slack_length_ = spec.tendon_slack_length;
   max_speed_ = spec.optimal_fiber_length * spec.max_contraction_velocity;
-  damping_ = spec.fiber_damping;
+  damping_ = kind_ == MuscleKind::kThelen2003 ? 0 : spec.fiber_damping;
   minimum_activation_ = spec.minimum_activation;
   rigid_ = spec.tendon == TendonKind::kRigid;
 
@@ -121,9 +131,65 @@ Muscle::Muscle(const MuscleSpec& spec, std::shared_ptr<const MuscleCurves> curve
   max_pennation_cos_ = std::cos(spec.maximum_pennation);
   min_pennation_length_ =
       spec.maximum_pennation > kNegligible ? height_ / max_pennation_sin_ : 0.01 * optimal_length_;
-  min_length_ = std::max({kNegligible,
-                          curves_->active_force_length.startX() * optimal_length_,
-                          min_pennation_length_});
+  const double active_start =
+      kind_ == MuscleKind::kMillard2012 ? curves_->active_force_length.startX() : 0;
+  min_length_ = std::max({kNegligible, active_start * optimal_length_, min_pennation_length_});
+}
+
+void Muscle::makeOwnCurves(const MuscleSpec& spec) {
+  try {
+    switch (kind_) {
+      case MuscleKind::kMillard2012:
+        check(curves_ != nullptr, "a Millard muscle comes with its curves");
+        break;
+      case MuscleKind::kThelen2003:
+        thelen_ = std::make_shared<const ThelenCurves>(spec.thelen);
+        break;
+      case MuscleKind::kSchutte1993:
+        schutte_ = std::make_shared<const SchutteCurves>(spec.schutte);
+        activation_dynamics_.law = ActivationDynamics::Law::kSchutte1993;
+        activation_dynamics_.excitation_rate = spec.schutte.excitation_rate;
+        activation_dynamics_.activation_rate = spec.schutte.activation_rate;
+        break;
+    }
+  } catch (Error& error) {
+    error.completeWhere(atMuscle(spec.name));
+    throw;
+  }
+}
+
+template <class Function>
+auto Muscle::withCurves(const Function& function) const noexcept {
+  if (kind_ == MuscleKind::kMillard2012) {
+    return function(*curves_);
+  }
+  return kind_ == MuscleKind::kThelen2003 ? function(*thelen_) : function(*schutte_);
+}
+
+CurvePoint Muscle::calcActiveForceLength(double norm_length) const noexcept {
+  return withCurves([&](const auto& curves) { return curves.calcActive(norm_length); });
+}
+
+CurvePoint Muscle::calcPassiveForceLength(double norm_length) const noexcept {
+  return withCurves([&](const auto& curves) { return curves.calcPassive(norm_length); });
+}
+
+CurvePoint Muscle::calcForceVelocity(double norm_velocity) const noexcept {
+  return withCurves([&](const auto& curves) { return curves.calcForceVelocity(norm_velocity, 1); });
+}
+
+double Muscle::tendonLineStart() const noexcept {
+  return withCurves([](const auto& curves) { return curves.tendonLineStart(); });
+}
+
+double Muscle::calcForceVelocityAt(double norm_velocity, double activation) const noexcept {
+  return withCurves([&](const auto& curves) {
+    return curves.calcForceVelocity(norm_velocity, activation).value;
+  });
+}
+
+CurvePoint Muscle::calcTendonForceLength(double norm_tendon_length) const noexcept {
+  return withCurves([&](const auto& curves) { return curves.calcTendon(norm_tendon_length); });
 }
 
 Muscle::Geometry Muscle::calcGeometry(double fiber_length) const noexcept {
@@ -161,8 +227,8 @@ FiberState Muscle::calcRigid(double activation,
   state.cos_pennation = geometry.cos;
   state.tendon_length = path_length - geometry.along;
   const double norm_length = state.length / optimal_length_;
-  state.active_length_multiplier = curves_->active_force_length.calc(norm_length).value;
-  state.passive_multiplier = curves_->passive_force_length.calc(norm_length).value;
+  state.active_length_multiplier = calcActiveForceLength(norm_length).value;
+  state.passive_multiplier = calcPassiveForceLength(norm_length).value;
 
   const bool slack = state.tendon_length < slack_length_ - kNegligible;
   state.velocity = slack ? 0 : path_speed * geometry.cos;
@@ -171,8 +237,8 @@ FiberState Muscle::calcRigid(double activation,
     return state;
   }
   state.norm_velocity = state.velocity / max_speed_;
-  state.velocity_multiplier = curves_->force_velocity.calc(state.norm_velocity).value;
   const double a = std::clamp(activation, minimum_activation_, 1.0);
+  state.velocity_multiplier = calcForceVelocityAt(state.norm_velocity, a);
   state.active_force = max_force_ * a * state.active_length_multiplier * state.velocity_multiplier;
   // Fast shortening makes the damper push; a fiber cannot, so the damping force is cut.
   state.passive_force =
@@ -192,24 +258,23 @@ FiberState Muscle::calcElastic(double activation,
   state.cos_pennation = geometry.cos;
   state.tendon_length = path_length - geometry.along;
   const double norm_length = state.length / optimal_length_;
-  state.active_length_multiplier = curves_->active_force_length.calc(norm_length).value;
-  state.passive_multiplier = curves_->passive_force_length.calc(norm_length).value;
-  const double tendon =
-      curves_->tendon_force_length.calc(state.tendon_length / slack_length_).value;
+  state.active_length_multiplier = calcActiveForceLength(norm_length).value;
+  state.passive_multiplier = calcPassiveForceLength(norm_length).value;
+  const double tendon = calcTendonForceLength(state.tendon_length / slack_length_).value;
   state.tendon_force = max_force_ * tendon;
 
   // Start from the inverse force-velocity curve, which is exact without damping.
   const double force = (tendon / geometry.cos - state.passive_multiplier) /
                        std::max(a * state.active_length_multiplier, 1e-4);
   const double guess =
-      std::clamp(curves_->inverse_force_velocity.calc(force).value, -1.0, 1.0) * max_speed_;
+      withCurves([&](const auto& curves) { return curves.guessVelocity(force, a); }) * max_speed_;
   state.velocity = solveStageVelocity({a, state.length, path_length, 0.0}, guess);
   if (state.length <= min_length_ && state.velocity <= 0) {
     state.velocity = 0;
     return state;
   }
   state.norm_velocity = state.velocity / max_speed_;
-  state.velocity_multiplier = curves_->force_velocity.calc(state.norm_velocity).value;
+  state.velocity_multiplier = calcForceVelocityAt(state.norm_velocity, a);
   state.active_force = max_force_ * a * state.active_length_multiplier * state.velocity_multiplier;
   state.passive_force = max_force_ * (state.passive_multiplier + damping_ * state.norm_velocity);
   return state;
@@ -217,11 +282,12 @@ FiberState Muscle::calcElastic(double activation,
 
 double Muscle::calcTendonForce(double fiber_length, double path_length) const noexcept {
   const double along = calcGeometry(std::max(min_length_, fiber_length)).along;
-  return max_force_ *
-         curves_->tendon_force_length.calc((path_length - along) / slack_length_).value;
+  return max_force_ * calcTendonForceLength((path_length - along) / slack_length_).value;
 }
 
-Muscle::Residual Muscle::calcStageResidual(const Stage& stage,
+template <class Curves>
+Muscle::Residual Muscle::calcStageResidual(const Curves& curves,
+                                           const Stage& stage,
                                            double norm_velocity) const noexcept {
   // How far the fiber moves per unit of normalised velocity; none once it rests on its stop.
   double reach = stage.step * max_speed_;
@@ -231,13 +297,12 @@ Muscle::Residual Muscle::calcStageResidual(const Stage& stage,
     reach = 0;
   }
   const Geometry g = calcGeometry(length);
-  const CurvePoint active = curves_->active_force_length.calc(length / optimal_length_);
-  const CurvePoint passive = curves_->passive_force_length.calc(length / optimal_length_);
-  const CurvePoint velocity = curves_->force_velocity.calc(norm_velocity);
-  const CurvePoint tendon =
-      curves_->tendon_force_length.calc((stage.path_length - g.along) / slack_length_);
-
   const double a = stage.activation;
+  const CurvePoint active = curves.calcActive(length / optimal_length_);
+  const CurvePoint passive = curves.calcPassive(length / optimal_length_);
+  const CurvePoint velocity = curves.calcForceVelocity(norm_velocity, a);
+  const CurvePoint tendon = curves.calcTendon((stage.path_length - g.along) / slack_length_);
+
   const double fiber = a * active.value * velocity.value + passive.value + damping_ * norm_velocity;
   const double fiber_slope_v = a * active.value * velocity.slope + damping_;
   const double fiber_slope_l =
@@ -247,32 +312,42 @@ Muscle::Residual Muscle::calcStageResidual(const Stage& stage,
                                            tendon.slope * g.along_slope / slack_length_)};
 }
 
-double Muscle::solveStageVelocity(const Stage& stage, double guess) const noexcept {
-  const double norm_velocity = solveIncreasing(
-      [&](double v) { return calcStageResidual(stage, v); }, guess / max_speed_, 0.1);
+double Muscle::solveStageVelocity(const Stage& given, double guess) const noexcept {
+  Stage stage = given;
+  if (kind_ == MuscleKind::kThelen2003) {
+    stage.activation = std::max(stage.activation, minimum_activation_);
+  }
+  const double norm_velocity = withCurves([&](const auto& curves) {
+    return solveIncreasing(
+        [&](double v) { return calcStageResidual(curves, stage, v); }, guess / max_speed_, 0.1);
+  });
   const double velocity = norm_velocity * max_speed_;
   const bool stops = stage.step > 0 && stage.start_length + stage.step * velocity < min_length_;
   return stops ? (min_length_ - stage.start_length) / stage.step : velocity;
 }
 
-Muscle::Residual Muscle::calcStaticResidual(double activation,
+template <class Curves>
+Muscle::Residual Muscle::calcStaticResidual(const Curves& curves,
+                                            double activation,
                                             double fiber_length,
                                             double path_length) const noexcept {
   const Geometry g = calcGeometry(fiber_length);
-  const CurvePoint active = curves_->active_force_length.calc(fiber_length / optimal_length_);
-  const CurvePoint passive = curves_->passive_force_length.calc(fiber_length / optimal_length_);
-  const CurvePoint tendon =
-      curves_->tendon_force_length.calc((path_length - g.along) / slack_length_);
+  const CurvePoint active = curves.calcActive(fiber_length / optimal_length_);
+  const CurvePoint passive = curves.calcPassive(fiber_length / optimal_length_);
+  const CurvePoint tendon = curves.calcTendon((path_length - g.along) / slack_length_);
   const double fiber = activation * active.value + passive.value;
   const double fiber_slope = (activation * active.slope + passive.slope) / optimal_length_;
   return {fiber * g.cos - tendon.value,
           fiber_slope * g.cos + fiber * g.cos_slope + tendon.slope * g.along_slope / slack_length_};
 }
 
-double Muscle::solveStaticLength(double activation, double path_length) const noexcept {
+template <class Curves>
+double Muscle::findStaticLength(const Curves& curves,
+                                double activation,
+                                double path_length) const noexcept {
   const double a = std::clamp(activation, minimum_activation_, 1.0);
   double low = min_length_;
-  if (calcStaticResidual(a, low, path_length).value >= 0) {
+  if (calcStaticResidual(curves, a, low, path_length).value >= 0) {
     return low;
   }
   // At this length the tendon has length zero and pulls nothing.
@@ -281,7 +356,7 @@ double Muscle::solveStaticLength(double activation, double path_length) const no
   double length =
       std::clamp(std::hypot(height_, std::max(0.0, path_length - 1.01 * slack_length_)), low, high);
   for (int step = 0; step < kMaxSteps; ++step) {
-    const Residual at = calcStaticResidual(a, length, path_length);
+    const Residual at = calcStaticResidual(curves, a, length, path_length);
     (at.value > 0 ? high : low) = length;
     const bool slow = std::abs(at.value) > 0.5 * last_size;
     last_size = std::abs(at.value);
@@ -298,6 +373,11 @@ double Muscle::solveStaticLength(double activation, double path_length) const no
   return length;
 }
 
+double Muscle::solveStaticLength(double activation, double path_length) const noexcept {
+  return withCurves(
+      [&](const auto& curves) { return findStaticLength(curves, activation, path_length); });
+}
+
 Muscle::ForceLine Muscle::calcRigidForceLine(double path_length, double path_speed) const noexcept {
   const double length = calcRigidLength(path_length);
   if (length <= min_length_) {
@@ -306,10 +386,13 @@ Muscle::ForceLine Muscle::calcRigidForceLine(double path_length, double path_spe
   const double cos = calcGeometry(length).cos;
   const double norm_velocity = path_speed * cos / max_speed_;
   const double along = max_force_ * cos;
-  return {along * curves_->active_force_length.calc(length / optimal_length_).value *
-              curves_->force_velocity.calc(norm_velocity).value,
-          along * (curves_->passive_force_length.calc(length / optimal_length_).value +
-                   damping_ * norm_velocity)};
+  double velocity_multiplier = calcForceVelocity(norm_velocity).value;
+  if (kind_ == MuscleKind::kThelen2003) {
+    velocity_multiplier = std::max(0.0, velocity_multiplier);
+  }
+  return {
+      along * calcActiveForceLength(length / optimal_length_).value * velocity_multiplier,
+      along * (calcPassiveForceLength(length / optimal_length_).value + damping_ * norm_velocity)};
 }
 
 namespace {
@@ -335,6 +418,10 @@ std::vector<Muscle> makeMuscles(const std::vector<MuscleSpec>& specs) {
   std::vector<Muscle> muscles;
   muscles.reserve(specs.size());
   for (const MuscleSpec& spec : specs) {
+    if (spec.kind != MuscleKind::kMillard2012) {
+      muscles.emplace_back(spec, nullptr);
+      continue;
+    }
     auto same = std::find_if(built.begin(), built.end(), [&](const Built& b) {
       return haveSameCurves(*b.spec, spec.curves);
     });

@@ -6,6 +6,8 @@
 #include "core/data/model_spec.h"
 #include "core/muscle/activation_dynamics.h"
 #include "core/muscle/muscle_curves.h"
+#include "core/muscle/schutte_curves.h"
+#include "core/muscle/thelen_curves.h"
 
 namespace gaitmill {
 
@@ -24,15 +26,23 @@ struct FiberState {
   double tendon_force = 0;              ///< what pulls on the skeleton [N] >= 0
 };
 
-/// Hill-type muscle after Millard et al. (2013), J Biomech Eng 135:021005, with fiber damping and
-/// fixed-height pennation (spec/muscle.md). Massless: along the tendon, fiber and tendon force
-/// balance. Immutable, safe to share between threads; no member allocates or fails once built.
+/// Hill-type muscle with fixed-height pennation (spec/muscle.md), after Millard et al. (2013),
+/// J Biomech Eng 135:021005, with fiber damping; or after Thelen (2003) or Schutte et al. (1993),
+/// which differ by their curves (ThelenCurves, SchutteCurves), their activation dynamics and their
+/// shortest fiber. Massless: along the tendon, fiber and tendon force balance. Immutable, safe to
+/// share between threads; no member allocates or fails once built.
+///
+/// Where the formulas below say fV, Thelen's also depends on activation. Its muscles have no
+/// damping and need none: their fV has a slope everywhere, and activation is kept at its minimum or
+/// above.
 ///
 /// Units of the arguments: activation [-] in [minimum activation, 1]; path_length and fiber_length
 /// [m]; path_speed [m/s]. Fiber lengths below minFiberLength() count as that length.
 class Muscle {
  public:
-  /// @param curves  those of `spec.curves`, shared with other muscles
+  /// @param curves  those of `spec.curves`, shared with other muscles; unused and may be null
+  /// unless
+  ///   the muscle is Millard's
   /// @throws Error kMuscleParameter naming the muscle and the first field out of range
   Muscle(const MuscleSpec& spec, std::shared_ptr<const MuscleCurves> curves);
 
@@ -42,7 +52,8 @@ class Muscle {
   double tendonSlackLength() const { return slack_length_; }
   double maxFiberSpeed() const { return max_speed_; }  ///< l0M vmax [m/s]
   double minimumActivation() const { return minimum_activation_; }
-  /// Shortest fiber the model allows: active range or steepest pennation (spec/muscle.md 4).
+  /// Shortest fiber the model allows: steepest pennation, and in Millard's model the active range
+  /// (spec/muscle.md 4, 10).
   double minFiberLength() const { return min_length_; }
   const ActivationDynamics& activationDynamics() const { return activation_dynamics_; }
 
@@ -85,9 +96,9 @@ class Muscle {
   double solveStaticLength(double activation, double path_length) const noexcept;
 
   /// Tendon force with a rigid tendon as a function of activation: max(0, gain a + offset) [N].
-  /// The gain is F0M fAL fV cos(phi), what cost functions call the active force at activation 1
-  /// (spec/muscle.md 8, with the pennation of the fiber); the offset is passive force and damping.
-  /// Both are 0 at the minimum fiber length.
+  /// The gain is F0M fAL fV cos(phi), fV at activation 1 and not below 0, what cost functions call
+  /// the active force at activation 1 (spec/muscle.md 8, with the pennation of the fiber); the
+  /// offset is passive force and damping. Both are 0 at the minimum fiber length.
   struct ForceLine {
     double gain = 0;
     double offset = 0;
@@ -96,6 +107,14 @@ class Muscle {
   double calcRigidActiveForce(double path_length, double path_speed) const noexcept {
     return calcRigidForceLine(path_length, path_speed).gain;
   }
+
+  // The normalised curves, force over F0M: of l/l0M, l/l0M, v/(l0M vmax) at activation 1, lT/lsT.
+  CurvePoint calcActiveForceLength(double norm_length) const noexcept;
+  CurvePoint calcPassiveForceLength(double norm_length) const noexcept;
+  CurvePoint calcForceVelocity(double norm_velocity) const noexcept;
+  CurvePoint calcTendonForceLength(double norm_tendon_length) const noexcept;
+  /// Normalised length beyond which the tendon's curve is a line [lsT].
+  double tendonLineStart() const noexcept;
 
  private:
   struct Geometry {
@@ -108,14 +127,31 @@ class Muscle {
     double value;  ///< [-] fiber force along the tendon minus tendon force, over F0M
     double slope;  ///< d/dvN
   };
+  void makeOwnCurves(const MuscleSpec& spec);
   Geometry calcGeometry(double fiber_length) const noexcept;
   double calcRigidLength(double path_length) const noexcept;
-  Residual calcStageResidual(const Stage& stage, double norm_velocity) const noexcept;
-  Residual calcStaticResidual(double activation,
+  double calcForceVelocityAt(double norm_velocity, double activation) const noexcept;
+  template <class Curves>
+  Residual calcStageResidual(const Curves& curves,
+                             const Stage& stage,
+                             double norm_velocity) const noexcept;
+  template <class Curves>
+  Residual calcStaticResidual(const Curves& curves,
+                              double activation,
                               double fiber_length,
                               double path_length) const noexcept;
+  template <class Curves>
+  double findStaticLength(const Curves& curves,
+                          double activation,
+                          double path_length) const noexcept;
+  /// function(curves) with the curves of the muscle's kind: one branch for a whole solve.
+  template <class Function>
+  auto withCurves(const Function& function) const noexcept;
 
-  std::shared_ptr<const MuscleCurves> curves_;
+  MuscleKind kind_ = MuscleKind::kMillard2012;
+  std::shared_ptr<const MuscleCurves> curves_;    ///< of kMillard2012
+  std::shared_ptr<const ThelenCurves> thelen_;    ///< of kThelen2003
+  std::shared_ptr<const SchutteCurves> schutte_;  ///< of kSchutte1993
   ActivationDynamics activation_dynamics_;
   double max_force_ = 0;
   double optimal_length_ = 0;
@@ -131,7 +167,7 @@ class Muscle {
   bool rigid_ = false;
 };
 
-/// One Muscle per spec, in order. Each distinct set of curves is built once and shared.
+/// One Muscle per spec, in order. Each distinct set of Millard curves is built once and shared.
 std::vector<Muscle> makeMuscles(const std::vector<MuscleSpec>& specs);
 
 }  // namespace gaitmill

@@ -51,6 +51,20 @@ auto tieCurves(const MuscleCurvesSpec& s) {
                   s.tendon_curviness);
 }
 
+auto tieCurves(const ThelenCurvesSpec& s) {
+  return std::tie(s.tendon_strain_at_one_force,
+                  s.passive_strain_at_one_force,
+                  s.active_shape,
+                  s.passive_shape,
+                  s.velocity_shape,
+                  s.max_eccentric_force,
+                  s.linear_above_force);
+}
+
+bool statesCurves(const SchutteCurvesSpec& s) {
+  return s.active_force_length || s.passive_force_length || s.tendon_force_strain;
+}
+
 }  // namespace
 
 QuinticCurve makeActiveForceLength(const MuscleCurvesSpec& spec, double minimum_value) {
@@ -137,6 +151,21 @@ MuscleCurves::MuscleCurves(const MuscleCurvesSpec& spec)
 
 bool haveSameCurves(const MuscleCurvesSpec& a, const MuscleCurvesSpec& b) {
   return tieCurves(a) == tieCurves(b);
+}
+
+bool haveSameCurves(const MuscleSpec& a, const MuscleSpec& b) {
+  if (a.kind != b.kind) {
+    return false;
+  }
+  switch (a.kind) {
+    case MuscleKind::kMillard2012:
+      break;
+    case MuscleKind::kThelen2003:
+      return tieCurves(a.thelen) == tieCurves(b.thelen);
+    case MuscleKind::kSchutte1993:
+      return !statesCurves(a.schutte) && !statesCurves(b.schutte);
+  }
+  return haveSameCurves(a.curves, b.curves);
 }
 
 }  // namespace gaitmill

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "core/data/model_spec.h"
 #include "core/muscle/quintic_curve.h"
 
@@ -18,6 +20,24 @@ struct MuscleCurves {
                                         ///< are half the near ones
   QuinticCurve passive_force_length;    ///< fPE(l/l0M)
   QuinticCurve tendon_force_length;     ///< fT(lT/lsT)
+
+  // The same under the names that the curves of all kinds of muscles have, see ThelenCurves.
+  CurvePoint calcActive(double norm_length) const noexcept {
+    return active_force_length.calc(norm_length);
+  }
+  CurvePoint calcPassive(double norm_length) const noexcept {
+    return passive_force_length.calc(norm_length);
+  }
+  CurvePoint calcTendon(double norm_tendon_length) const noexcept {
+    return tendon_force_length.calc(norm_tendon_length);
+  }
+  double tendonLineStart() const noexcept { return tendon_force_length.endX(); }
+  CurvePoint calcForceVelocity(double norm_velocity, double /*activation*/) const noexcept {
+    return force_velocity.calc(norm_velocity);
+  }
+  double guessVelocity(double force, double /*activation*/) const noexcept {
+    return std::clamp(inverse_force_velocity.calc(force).value, -1.0, 1.0);
+  }
 };
 
 /// @param minimum_value  force at both ends of the active range
@@ -34,5 +54,7 @@ QuinticCurve makeTendonForceLength(const MuscleCurvesSpec& spec);
 
 /// Whether two parameter sets give the same curves, so that they can be shared.
 bool haveSameCurves(const MuscleCurvesSpec& a, const MuscleCurvesSpec& b);
+/// The same of two muscles of any kind. Schutte's count as different where both state curves.
+bool haveSameCurves(const MuscleSpec& a, const MuscleSpec& b);
 
 }  // namespace gaitmill

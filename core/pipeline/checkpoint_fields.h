@@ -81,8 +81,8 @@ void visitFields(Archive& archive, Access<Archive, MarkerSpec>& value) {
 
 template <class Archive>
 void visitFields(Archive& archive, Access<Archive, PathPointSpec>& value) {
-  auto& [body, location] = value;
-  archive(body, location);
+  auto& [body, location, kind, coordinate, range_min, range_max, location_functions] = value;
+  archive(body, location, kind, coordinate, range_min, range_max, location_functions);
 }
 
 template <class Archive>
@@ -140,6 +140,38 @@ void visitFields(Archive& archive, Access<Archive, MuscleCurvesSpec>& value) {
 }
 
 template <class Archive>
+void visitFields(Archive& archive, Access<Archive, ThelenCurvesSpec>& value) {
+  auto& [tendon_strain_at_one_force,
+         passive_strain_at_one_force,
+         active_shape,
+         passive_shape,
+         velocity_shape,
+         max_eccentric_force,
+         linear_above_force] = value;
+  archive(tendon_strain_at_one_force,
+          passive_strain_at_one_force,
+          active_shape,
+          passive_shape,
+          velocity_shape,
+          max_eccentric_force,
+          linear_above_force);
+}
+
+template <class Archive>
+void visitFields(Archive& archive, Access<Archive, SchutteCurvesSpec>& value) {
+  auto& [excitation_rate,
+         activation_rate,
+         active_force_length,
+         passive_force_length,
+         tendon_force_strain] = value;
+  archive(excitation_rate,
+          activation_rate,
+          active_force_length,
+          passive_force_length,
+          tendon_force_strain);
+}
+
+template <class Archive>
 void visitFields(Archive& archive, Access<Archive, MuscleSpec>& value) {
   auto& [name,
          max_isometric_force,
@@ -159,7 +191,10 @@ void visitFields(Archive& archive, Access<Archive, MuscleSpec>& value) {
          tendon,
          curves,
          path,
-         wraps] = value;
+         wraps,
+         kind,
+         thelen,
+         schutte] = value;
   archive(name,
           max_isometric_force,
           optimal_fiber_length,
@@ -178,7 +213,10 @@ void visitFields(Archive& archive, Access<Archive, MuscleSpec>& value) {
           tendon,
           curves,
           path,
-          wraps);
+          wraps,
+          kind,
+          thelen,
+          schutte);
 }
 
 template <class Archive>

@@ -131,6 +131,15 @@ void scaleJoint(const FactorMap& factors, JointSpec& joint) {
   }
 }
 
+void scalePoint(const Vector3d& s, PathPointSpec& point) {
+  stretch(s, point.location);
+  if (point.kind == PathPointSpec::Kind::kMoving) {
+    for (int axis = 0; axis < 3; ++axis) {
+      point.location_functions[static_cast<std::size_t>(axis)].scale *= s[axis];
+    }
+  }
+}
+
 Eigen::VectorXd calcDefaultLengths(const ModelSpec& spec) {
   const Model model(spec);
   ModelState state(model);
@@ -183,7 +192,7 @@ ModelSpec applyScaleFactors(const ModelSpec& generic,
   }
   for (MuscleSpec& muscle : scaled.muscles) {
     for (PathPointSpec& point : muscle.path) {
-      stretch(map.at(point.body), point.location);
+      scalePoint(map.at(point.body), point);
     }
   }
   scaleMuscles(generic, scaled);

@@ -19,7 +19,7 @@ const std::map<std::string, std::set<std::string>>& allowedRooms() {
       {"core/data", {"core/base"}},
       {"core/math", {"core/base", "core/data"}},
       {"core/io", {"core/base", "core/data"}},
-      {"core/muscle", {"core/base", "core/data"}},
+      {"core/muscle", {"core/base", "core/data", "core/math"}},
       {"core/model", {"core/base", "core/data", "core/math", "core/muscle"}},
       {"core/scale", stage},
       {"core/ik", stage},

@@ -1,5 +1,7 @@
 #include "core/io/osim_writer.h"
 
+#include <algorithm>
+#include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -49,8 +51,13 @@ bool same(const TransformAxisSpec& a, const TransformAxisSpec& b) {
 }
 
 bool same(const PathPointSpec& a, const PathPointSpec& b) {
-  const auto& [body, location] = a;
-  return body == b.body && location == b.location;
+  const auto& [body, location, kind, coordinate, low, high, functions] = a;
+  return body == b.body && location == b.location && kind == b.kind && coordinate == b.coordinate &&
+         low == b.range_min && high == b.range_max &&
+         std::equal(functions.begin(),
+                    functions.end(),
+                    b.location_functions.begin(),
+                    [](const FunctionSpec& f, const FunctionSpec& g) { return same(f, g); });
 }
 
 bool same(const PathWrapSpec& a, const PathWrapSpec& b) {
@@ -151,6 +158,32 @@ void expectSame(const MuscleCurvesSpec& a, const MuscleCurvesSpec& b) {
   EXPECT_EQ(tcurve, b.tendon_curviness);
 }
 
+void expectSame(const ThelenCurvesSpec& a, const ThelenCurvesSpec& b) {
+  const auto& [tendon, passive_strain, gamma, k_passive, af, flen, linear] = a;
+  EXPECT_EQ(tendon, b.tendon_strain_at_one_force);
+  EXPECT_EQ(passive_strain, b.passive_strain_at_one_force);
+  EXPECT_EQ(gamma, b.active_shape);
+  EXPECT_EQ(k_passive, b.passive_shape);
+  EXPECT_EQ(af, b.velocity_shape);
+  EXPECT_EQ(flen, b.max_eccentric_force);
+  EXPECT_EQ(linear, b.linear_above_force);
+}
+
+void expectSame(const std::optional<FunctionSpec>& a, const std::optional<FunctionSpec>& b) {
+  EXPECT_EQ(a.has_value(), b.has_value());
+  EXPECT_TRUE(!a || !b || same(*a, *b));
+}
+
+// The document states rates in units of its time scale, which costs them their last digit.
+void expectSame(const SchutteCurvesSpec& a, const SchutteCurvesSpec& b) {
+  const auto& [excitation_rate, activation_rate, active, passive, tendon] = a;
+  EXPECT_DOUBLE_EQ(excitation_rate, b.excitation_rate);
+  EXPECT_DOUBLE_EQ(activation_rate, b.activation_rate);
+  expectSame(active, b.active_force_length);
+  expectSame(passive, b.passive_force_length);
+  expectSame(tendon, b.tendon_force_strain);
+}
+
 void expectSame(const MuscleSpec& a, const MuscleSpec& b) {
   const auto& [name,
                force,
@@ -170,7 +203,10 @@ void expectSame(const MuscleSpec& a, const MuscleSpec& b) {
                tendon,
                curves,
                path,
-               wraps] = a;
+               wraps,
+               kind,
+               thelen,
+               schutte] = a;
   EXPECT_EQ(name, b.name);
   EXPECT_EQ(force, b.max_isometric_force);
   EXPECT_EQ(fiber, b.optimal_fiber_length);
@@ -190,6 +226,9 @@ void expectSame(const MuscleSpec& a, const MuscleSpec& b) {
   expectSame(curves, b.curves);
   expectSameList(path, b.path);
   expectSameList(wraps, b.wraps);
+  EXPECT_EQ(kind, b.kind);
+  expectSame(thelen, b.thelen);
+  expectSame(schutte, b.schutte);
 }
 
 void expectSame(const ActuatorSpec& a, const ActuatorSpec& b) {
@@ -313,6 +352,50 @@ MuscleSpec makeMuscle(const std::string& name) {
   return muscle;
 }
 
+MuscleSpec makeThelenMuscle() {
+  MuscleSpec muscle = makeMuscle("t_r");
+  muscle.kind = MuscleKind::kThelen2003;
+  muscle.tendon = TendonKind::kElastic;
+  muscle.fiber_damping = 0;
+  muscle.thelen = {0.033, 0.61, 0.5, 4, 0.3, 1.8, 0.94};
+  return muscle;
+}
+
+// What the class does not know has the defaults.
+MuscleSpec makeSchutteMuscle() {
+  MuscleSpec muscle = makeMuscle("s_r");
+  muscle.kind = MuscleKind::kSchutte1993;
+  muscle.tendon = TendonKind::kElastic;
+  muscle.max_contraction_velocity = 8;
+  muscle.minimum_activation = 0;
+  muscle.activation_time_constant = MuscleSpec().activation_time_constant;
+  muscle.deactivation_time_constant = MuscleSpec().deactivation_time_constant;
+  muscle.schutte.excitation_rate = 70;
+  muscle.schutte.activation_rate = 14;
+  muscle.schutte.active_force_length =
+      FunctionSpec{FunctionSpec::Kind::kSimmSpline, {0, 1, 2}, {0, 1, 0}, 1};
+  muscle.schutte.tendon_force_strain = FunctionSpec{FunctionSpec::Kind::kLinear, {}, {30, 0}, 1};
+  return muscle;
+}
+
+void addPathPoints(MuscleSpec& muscle) {
+  PathPointSpec via{"body_pin", {0.1, 0.2, 0.3}};
+  via.kind = PathPointSpec::Kind::kConditional;
+  via.coordinate = "pin_q0";
+  via.range_min = -1.0 / 3.0;
+  via.range_max = 0.5;
+  PathPointSpec moving;
+  moving.body = "body_slider";
+  moving.kind = PathPointSpec::Kind::kMoving;
+  moving.coordinate = "custom_q1";
+  moving.location_functions = {
+      FunctionSpec{FunctionSpec::Kind::kSimmSpline, {0, 0.1, 3}, {1, 2, 1e-9}, 0.958},
+      FunctionSpec{FunctionSpec::Kind::kConstant, {}, {0.25}, 1},
+      FunctionSpec{FunctionSpec::Kind::kLinear, {}, {2, 0.1}, 1}};
+  muscle.path.push_back(via);
+  muscle.path.push_back(moving);
+}
+
 ModelSpec makeModelWithEverything() {
   ModelSpec spec;
   spec.name = "A & B <\"model\">";
@@ -338,8 +421,9 @@ ModelSpec makeModelWithEverything() {
       {"c", "pin_q0", "slider_q0", {FunctionSpec::Kind::kLinear, {}, {2, 1}, 3}, 0.5, false},
       {"d", "pin_q0", "planar_q0", {FunctionSpec::Kind::kSimmSpline, {0, 1}, {2, 3}, 1}, 1, true}};
   spec.markers = {{"R.Heel", "body_pin", {0.1, 0.2, 0.3}, true}, {"m", "ground", {0, 0, 0}, false}};
-  spec.muscles = {makeMuscle("m_r"), makeMuscle("m_l")};
+  spec.muscles = {makeMuscle("m_r"), makeMuscle("m_l"), makeThelenMuscle(), makeSchutteMuscle()};
   spec.muscles[1].tendon = TendonKind::kElastic;
+  addPathPoints(spec.muscles[1]);
   spec.muscles[1].curves = {0.3, 0.8, 1.8, 0.7, 0.1, 0.01, 0.2, 4,    0.02, 0.1, 1.5,
                             0.5, 0.8, 0.1, 0.6, 0.3, 3,    0.7, 0.04, 30,   0.6, 0.4};
   using Kind = ActuatorSpec::Kind;
@@ -368,6 +452,9 @@ class OsimWriterShared : public SharedDataTest {};
 TEST_F(OsimWriterShared, ReadingBackGivesEveryFieldOfEverySharedModel) {
   for (const char* file : {"data/models/Rajagopal2016.osim",
                            "data/models/Rajagopal2015.osim",
+                           "data/models/FullBodyModel_Hamner2010_v2_0.osim",
+                           "data/models/gait2392_thelen2003muscle.osim",
+                           "data/models/gait2392_millard2012muscle.osim",
                            "data/walk/Rajagopal2015_CustomMarkerset.osim",
                            "data/walk/moco/subject_walk_contact_bounded_80musc.osim",
                            "data/walk/example3DWalking/subject_walk_scaled.osim",

@@ -1,5 +1,6 @@
 #include "core/model/muscle_paths.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <random>
@@ -8,11 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "core/model/model.h"
 #include "tests/support/model_files.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/simple_models.h"
 #include "tests/support/tolerance.h"
 
 namespace gaitmill {
@@ -283,6 +286,222 @@ TEST_F(MusclePathsTest, SpeedIsTheChangeOfLengthInTime) {
   Eigen::VectorXd speeds(model_.muscleCount());
   paths_.calcSpeeds(u, speeds);
   EXPECT_LT((speeds - slope).cwiseAbs().maxCoeff(), tol(1e-7));
+}
+
+// A bob on a pin about z, a path from ground to a point of the bob.
+ModelSpec makePendulumWithPath(const PathPointSpec& last) {
+  ModelSpec spec = makePendulum(1.0, 0.5);
+  spec.joints[0].coordinates[0].range_min = -1;
+  spec.joints[0].coordinates[0].range_max = 1;
+  MuscleSpec muscle;
+  muscle.name = "m";
+  muscle.path = {{"ground", {0.3, 0.1, 0}}, last};
+  spec.muscles = {muscle};
+  return spec;
+}
+
+PathPointSpec makeMovingPoint(const std::string& body) {
+  PathPointSpec point;
+  point.body = body;
+  point.kind = PathPointSpec::Kind::kMoving;
+  point.coordinate = "angle";
+  point.location_functions[0] = {FunctionSpec::Kind::kPolynomial, {}, {0.3, 0.2, 0.1}, 1};
+  point.location_functions[1] = {FunctionSpec::Kind::kLinear, {}, {-0.1, -0.4}, 2};
+  return point;
+}
+
+// The point at (x, y)(q) of the bob, turned by q: a path in closed form.
+TEST(MusclePathPoints, MovingPointMatchesTheClosedForm) {
+  const Model model(makePendulumWithPath(makeMovingPoint("bob")));
+  ModelState state(model);
+  MusclePaths paths(model);
+  for (const double q : {-0.9, -0.2, 0.0, 0.7}) {
+    const Eigen::Vector2d p(0.3 * q * q + 0.2 * q + 0.1, -0.2 * q - 0.8);
+    const Eigen::Vector2d slope(0.6 * q + 0.2, -0.2);
+    const Eigen::Rotation2Dd turn(q);
+    const Eigen::Vector2d placed = turn * p;
+    const Eigen::Vector2d rate = turn * slope + Eigen::Vector2d(-placed.y(), placed.x());
+    const Eigen::Vector2d d = placed - Eigen::Vector2d(0.3, 0.1);
+    state.setPose(Eigen::VectorXd::Constant(1, q));
+    paths.calc(state);
+    EXPECT_NEAR(paths.lengths()[0], d.norm(), tol(1e-15));
+    EXPECT_NEAR(paths.momentArms()(0, 0), -rate.dot(d) / d.norm(), tol(1e-14));
+    Eigen::VectorXd speeds(1);
+    paths.calcSpeeds(Eigen::VectorXd::Constant(1, 3.0), speeds);
+    EXPECT_NEAR(speeds[0], 3 * rate.dot(d) / d.norm(), tol(1e-14));
+  }
+}
+
+// OpenSim forgets this part (spec/path.md 3); the length changes all the same.
+TEST(MusclePathPoints, MovingPointBesideItsNeighbourOnOneBodyHasAnArm) {
+  const Model model(makePendulumWithPath(makeMovingPoint("ground")));
+  ModelState state(model);
+  MusclePaths paths(model);
+  const double q = 0.4;
+  const Eigen::Vector2d d(0.3 * q * q + 0.2 * q + 0.1 - 0.3, -0.2 * q - 0.8 - 0.1);
+  state.setPose(Eigen::VectorXd::Constant(1, q));
+  paths.calc(state);
+  EXPECT_NEAR(paths.momentArms()(0, 0),
+              -Eigen::Vector2d(0.6 * q + 0.2, -0.2).dot(d) / d.norm(),
+              tol(1e-15));
+}
+
+TEST(MusclePathPoints, MovingPointRestsBeyondTheRangeOfItsCoordinate) {
+  const Model model(makePendulumWithPath(makeMovingPoint("ground")));
+  ModelState state(model);
+  MusclePaths paths(model);
+  const auto lengthAt = [&](double q) {
+    state.setPose(Eigen::VectorXd::Constant(1, q));
+    paths.calc(state);
+    return paths.lengths()[0];
+  };
+  EXPECT_EQ(lengthAt(1.5), lengthAt(1.0));
+  EXPECT_EQ(lengthAt(-1.5), lengthAt(-1.0));
+  EXPECT_NE(lengthAt(0.9), lengthAt(1.0));
+  lengthAt(1.5);
+  EXPECT_EQ(paths.momentArms()(0, 0), 0);
+}
+
+TEST(MusclePathPoints, MovingPointWithoutCoordinateStandsAtZero) {
+  PathPointSpec point = makeMovingPoint("ground");
+  point.coordinate = "";
+  const Model model(makePendulumWithPath(point));
+  ModelState state(model);
+  MusclePaths paths(model);
+  state.setPose(Eigen::VectorXd::Constant(1, 0.5));
+  paths.calc(state);
+  EXPECT_NEAR(paths.lengths()[0], std::hypot(0.2, 0.9), tol(1e-15));
+  EXPECT_EQ(paths.momentArms()(0, 0), 0);
+}
+
+TEST(MusclePathPoints, ConditionalPointIsPartOfThePathInsideItsRange) {
+  ModelSpec spec = makePendulumWithPath({"ground", {-0.3, 0.1, 0}});
+  PathPointSpec via{"ground", {0, 0.5, 0}};
+  via.kind = PathPointSpec::Kind::kConditional;
+  via.coordinate = "angle";
+  via.range_min = -0.2;
+  via.range_max = 0.3;
+  PathPointSpec never = via;
+  never.location.y() = 7;
+  never.coordinate = "";
+  auto& path = spec.muscles[0].path;
+  path.insert(path.begin() + 1, {via, never});
+  const Model model(spec);
+  ModelState state(model);
+  MusclePaths paths(model);
+  std::vector<PathVertex> vertices;
+  const auto countAt = [&](double q) {
+    state.setPose(Eigen::VectorXd::Constant(1, q));
+    paths.calc(state);
+    paths.tracePath(state, MuscleIndex(0), 1.0, vertices);
+    EXPECT_EQ(paths.lengths()[0], vertices.size() == 3 ? 1.0 : 0.6) << q;
+    return vertices.size();
+  };
+  // A condition holds within 1e-5 beyond its range.
+  EXPECT_EQ(countAt(0.0), 3u);
+  EXPECT_EQ(countAt(-0.200009), 3u);
+  EXPECT_EQ(countAt(-0.200011), 2u);
+  EXPECT_EQ(countAt(0.300009), 3u);
+  EXPECT_EQ(countAt(0.300011), 2u);
+}
+
+// The range of a wrap counts all points; where its last one is left out of the path, the wrap ends
+// at the point before.
+TEST(MusclePathPoints, WrapRangeEndsAtTheLastPointThatIsPartOfThePath) {
+  ModelSpec spec = makePendulumWithPath({"ground", {-0.3, -0.1, 0}});
+  WrapCylinderSpec cylinder;
+  cylinder.name = "rod";
+  cylinder.radius = 0.05;
+  spec.ground_wrap_cylinders = {cylinder};
+  PathPointSpec via{"ground", {0.2, 0.01, 0}};
+  via.kind = PathPointSpec::Kind::kConditional;
+  via.coordinate = "angle";
+  via.range_min = -0.5;
+  via.range_max = 0;
+  auto& path = spec.muscles[0].path;
+  path = {{"ground", {0.4, 0.02, 0}}, {"ground", {0.3, 0.01, 0}}, via, {"ground", {-0.3, 0.01, 0}}};
+  const auto wrapsAt = [&](int first, int last, double q) {
+    spec.muscles[0].wraps = {{"rod", first, last}};
+    const Model model(spec);
+    ModelState state(model);
+    MusclePaths paths(model);
+    state.setPose(Eigen::VectorXd::Constant(1, q));
+    paths.calc(state);
+    return paths.findWrapCount(MuscleIndex(0));
+  };
+  for (const double q : {-0.1, 0.1}) {
+    EXPECT_EQ(wrapsAt(-1, -1, q), 1) << q;
+    EXPECT_EQ(wrapsAt(1, 3, q), 0) << q;
+    EXPECT_EQ(wrapsAt(2, 4, q), 1) << q;
+  }
+  // The range begins at the point that is missing: at the next one, which is the last.
+  EXPECT_EQ(wrapsAt(3, 4, -0.1), 1);
+  EXPECT_EQ(wrapsAt(3, 4, 0.1), 0);
+}
+
+/// The models of the Delp lineage, whose paths have conditional and moving points.
+class DelpPathTest : public SharedDataTest {
+ protected:
+  // Every coordinate over its whole range while the others stand anywhere in theirs.
+  static void checkArms(const Model& model) {
+    constexpr double h = 4e-6;
+    constexpr int kSteps = 12;
+    ModelState state(model);
+    MusclePaths paths(model);
+    std::mt19937 generator(5);
+    std::uniform_real_distribution<double> unit(0, 1);
+    const auto lengthsAt = [&](Eigen::VectorXd q, int c, double step) -> Eigen::VectorXd {
+      q[c] += step;
+      state.setPose(q);
+      paths.calc(state);
+      return paths.lengths();
+    };
+    double worst = 0;
+    for (int c = 0; c < model.coordinateCount(); ++c) {
+      for (int step = 0; step < kSteps; ++step) {
+        Eigen::VectorXd q(model.coordinateCount());
+        for (int k = 0; k < q.size(); ++k) {
+          const CoordinateSpec& spec = model.coordinate(CoordinateIndex(k));
+          const double share = k == c ? (step + 0.5) / kSteps : unit(generator);
+          q[k] = spec.range_min + share * (spec.range_max - spec.range_min);
+        }
+        // Five points: the error of the difference is round-off, some 1e-16 m / h.
+        const Eigen::VectorXd slope = (8 * (lengthsAt(q, c, h) - lengthsAt(q, c, -h)) -
+                                       (lengthsAt(q, c, 2 * h) - lengthsAt(q, c, -2 * h))) /
+                                      (12 * h);
+        lengthsAt(q, c, 0);
+        worst = std::max(worst, (paths.momentArms().col(c) + slope).cwiseAbs().maxCoeff());
+      }
+    }
+    EXPECT_LT(worst, tol(1e-9));
+  }
+};
+
+TEST_F(DelpPathTest, MomentArmsOfGait2392AreTheDerivativeOfTheLength) {
+  checkArms(Model(readModelFile(shared("data/models/gait2392_millard2012muscle.osim"))));
+}
+
+TEST_F(DelpPathTest, MomentArmsOfHamner2010AreTheDerivativeOfTheLength) {
+  checkArms(Model(readModelFile(shared("data/models/FullBodyModel_Hamner2010_v2_0.osim"))));
+}
+
+// Quadriceps of gait2392 over the knee's range: their arm extends the knee and stays of the size of
+// a patellar tendon's, and the moving point carries a good part of it.
+TEST_F(DelpPathTest, QuadricepsExtendTheKneeOverItsWholeRange) {
+  const Model model(readModelFile(shared("data/models/gait2392_millard2012muscle.osim")));
+  ModelState state(model);
+  MusclePaths paths(model);
+  const int knee = model.getCoordinate("knee_angle_r").value();
+  const int rectus = model.spec().findMuscle("rect_fem_r");
+  for (double angle = -2.0; angle < 0.01; angle += 0.1) {
+    Eigen::VectorXd q = model.defaultPose();
+    q[knee] = angle;
+    state.setPose(q);
+    paths.calc(state);
+    // The knee's angle is negative in flexion: extension is the positive direction.
+    EXPECT_GT(paths.momentArms()(rectus, knee), 0.015) << angle;
+    EXPECT_LT(paths.momentArms()(rectus, knee), 0.06) << angle;
+  }
 }
 
 }  // namespace

@@ -52,5 +52,43 @@ TEST(ActivationDynamics, NeverPassesTheExcitation) {
   EXPECT_GE(dynamics.propagate(0.9, 0.01, 100), 0.01 - 1e-15);
 }
 
+ActivationDynamics makeSchutteDynamics() {
+  ActivationDynamics dynamics;
+  dynamics.law = ActivationDynamics::Law::kSchutte1993;
+  dynamics.excitation_rate = 76.67;
+  dynamics.activation_rate = 14.59854;
+  return dynamics;
+}
+
+// OpenSim's default constants: (x - a)(76.67 x + 14.59854) rising, (x - a) 14.59854 falling.
+TEST(SchutteActivation, RateIsThePublishedOne) {
+  const ActivationDynamics dynamics = makeSchutteDynamics();
+  EXPECT_NEAR(dynamics.calcRate(0.3, 0.8), 0.5 * (76.67 * 0.8 + 14.59854), tol(1e-12));
+  EXPECT_NEAR(dynamics.calcRate(0.3, 0.1), -0.2 * 14.59854, tol(1e-13));
+  EXPECT_EQ(dynamics.calcRate(0.3, 0.3), 0);
+}
+
+TEST(SchutteActivation, PropagationSolvesTheRate) {
+  const ActivationDynamics dynamics = makeSchutteDynamics();
+  constexpr double h = 1e-6;
+  for (const double x : {0.05, 0.4, 1.0}) {
+    for (const double t : {0.0, 0.004, 0.03}) {
+      const double a = dynamics.propagate(0.2, x, t);
+      const double slope =
+          (dynamics.propagate(0.2, x, t + h) - dynamics.propagate(0.2, x, t - h)) / (2 * h);
+      EXPECT_NEAR(slope, dynamics.calcRate(a, x), tol(1e-6));
+    }
+    EXPECT_NEAR(dynamics.propagate(0.2, x, 10), x, tol(1e-12));
+  }
+}
+
+// The distributed Arnold model states zero for both: its activation cannot change.
+TEST(SchutteActivation, WithoutRatesActivationStays) {
+  ActivationDynamics dynamics = makeSchutteDynamics();
+  dynamics.excitation_rate = 0;
+  dynamics.activation_rate = 0;
+  EXPECT_NEAR(dynamics.propagate(0.2, 0.9, 1), 0.2, tol(1e-15));
+}
+
 }  // namespace
 }  // namespace gaitmill

@@ -1,6 +1,7 @@
 #include "core/muscle/muscle.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -335,6 +336,165 @@ TEST_F(MuscleReference, FibersOfTheGenericModelMatch) {
 TEST_F(MuscleReference, FibersOfTheScaledWalkerMatch) {
   expectFibers(readModelFile(shared("reference/walk/subject_adjusted.osim")),
                "reference/model_walk_adjusted/fibers.csv");
+}
+
+// The soleus of gait2392, and the same size with the other two kinds of curves.
+MuscleSpec makeSoleus(MuscleKind kind) {
+  MuscleSpec spec;
+  spec.name = "soleus_r";
+  spec.kind = kind;
+  spec.max_isometric_force = 3549;
+  spec.optimal_fiber_length = 0.05;
+  spec.tendon_slack_length = 0.25;
+  spec.pennation_at_optimal = 0.43633231;
+  spec.thelen = {0.033, 0.6, 0.5, 4, 0.3, 1.8, 0.95};
+  return spec;
+}
+
+Muscle makeKind(MuscleKind kind) {
+  return makeMuscles({makeSoleus(kind)}).front();
+}
+
+constexpr std::array<MuscleKind, 3> kKinds = {
+    MuscleKind::kMillard2012, MuscleKind::kThelen2003, MuscleKind::kSchutte1993};
+
+// spec/muscle.md 10, from the formulas as they stand there.
+TEST(ThelenMuscle, VelocityIsThatOfTheStatedRelation) {
+  const Muscle muscle = makeKind(MuscleKind::kThelen2003);
+  const double h = 0.05 * std::sin(0.43633231);
+  const double e3 = std::exp(3.0);
+  const double toe = 99 * 0.033 * e3 / (166 * e3 - 67);
+  for (const double a : {0.01, 0.2, 0.9}) {
+    for (double length = 0.03; length < 0.08; length += 0.0031) {
+      for (double path = 0.26; path < 0.34; path += 0.0037) {
+        const double cos = std::sqrt(1 - h * h / (length * length));
+        const double x = (path - length * cos) / 0.25 - 1;
+        const double tendon = x > toe  ? 0.67 / (0.033 - toe) * (x - toe) + 0.33
+                              : x <= 0 ? 0
+                                       : 0.33 * (std::exp(3 * x / toe) - 1) / (e3 - 1);
+        const double l = length / 0.05;
+        const double passive = l > 1 ? (std::exp(4 * (l - 1) / 0.6) - 1) / (std::exp(4.0) - 1) : 0;
+        const double A = a * std::exp(-(l - 1) * (l - 1) / 0.5);
+        const double y = tendon / cos - passive;
+        const double k = 0.25 + 0.75 * a;
+        double v = 0;
+        const double limit = 0.95 * A * 1.8;
+        if (y <= 0) {
+          v = -k + k * (1 + 1 / 0.3) * y / A;
+        } else if (y <= A) {
+          v = k * (y - A) / (A + y / 0.3);
+        } else {
+          const double y0 = std::min(y, limit);
+          const double b = (2 + 2 / 0.3) * (A * 1.8 - y0) / 0.8;
+          v = k * (y0 - A) / b + (k / b + k * (y0 - A) * (2 + 2 / 0.3) / 0.8 / (b * b)) * (y - y0);
+        }
+        const FiberState state = muscle.calcElastic(a, length, path);
+        EXPECT_NEAR(state.norm_velocity, v, tol(1e-10 * (1 + std::abs(v))))
+            << a << " " << length << " " << path;
+        EXPECT_NEAR(state.tendon_force, 3549 * tendon, tol(1e-9));
+        EXPECT_NEAR(
+            state.active_force, 3549 * y, tol(1e-8 * (3549 + std::abs(state.active_force))));
+        EXPECT_NEAR(state.passive_force, 3549 * passive, tol(1e-8));
+      }
+    }
+  }
+}
+
+// The pennation alone limits the fiber: there is no active range.
+TEST(ThelenMuscle, ShortestFiberIsThatOfTheSteepestPennation) {
+  const double h = 0.05 * std::sin(0.43633231);
+  EXPECT_NEAR(makeKind(MuscleKind::kThelen2003).minFiberLength(), h / std::sqrt(0.99), tol(1e-15));
+  MuscleSpec flat = makeSoleus(MuscleKind::kThelen2003);
+  flat.pennation_at_optimal = 0;
+  EXPECT_LT(makeMuscles({flat}).front().minFiberLength(), 1e-13);
+}
+
+TEST(ThelenMuscle, NeedsActivationAndAnElasticTendon) {
+  MuscleSpec spec = makeSoleus(MuscleKind::kThelen2003);
+  spec.minimum_activation = 0.0099;
+  EXPECT_THROW(makeMuscles({spec}), Error);
+  spec = makeSoleus(MuscleKind::kThelen2003);
+  spec.tendon = TendonKind::kRigid;
+  EXPECT_THROW(makeMuscles({spec}), Error);
+  spec = makeSoleus(MuscleKind::kThelen2003);
+  spec.thelen.velocity_shape = 0;
+  try {
+    makeMuscles({spec});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kMuscleParameter);
+    EXPECT_EQ(error.where().muscle, "soleus_r");
+  }
+}
+
+// Faster than no load allows, the line that continues Thelen's relation is negative: as a capacity
+// that counts as none.
+TEST(ThelenMuscle, RigidForceIsNeverNegative) {
+  const Muscle muscle = makeKind(MuscleKind::kThelen2003);
+  EXPECT_EQ(muscle.calcRigidForceLine(0.3, -2).gain, 0);
+  EXPECT_GE(muscle.calcRigid(0.5, 0.3, -2).tendon_force, 0);
+  EXPECT_GT(muscle.calcRigidForceLine(0.3, 0).gain, 0);
+}
+
+TEST(MuscleKinds, RestWhereForcesBalance) {
+  for (const MuscleKind kind : kKinds) {
+    const Muscle muscle = makeKind(kind);
+    for (const double a : {0.01, 0.3, 1.0}) {
+      for (double path = 0.27; path < 0.33; path += 0.005) {
+        const double length = muscle.solveStaticLength(a, path);
+        if (length <= muscle.minFiberLength()) {
+          continue;
+        }
+        const FiberState state = muscle.calcElastic(a, length, path);
+        EXPECT_NEAR(state.velocity, 0, tol(1e-9)) << path;
+        EXPECT_NEAR((state.active_force + state.passive_force) * state.cos_pennation,
+                    state.tendon_force,
+                    tol(1e-8 * muscle.maxIsometricForce()));
+      }
+    }
+  }
+}
+
+// An implicit stage ends where the fiber has the velocity that brought it there.
+TEST(MuscleKinds, StageVelocityIsTheVelocityAtTheStagesEnd) {
+  for (const MuscleKind kind : kKinds) {
+    const Muscle muscle = makeKind(kind);
+    for (const double a : {0.01, 0.3, 1.0}) {
+      for (double start = 0.035; start < 0.07; start += 0.0043) {
+        for (double path = 0.28; path < 0.33; path += 0.006) {
+          for (const double step : {0.0, 1e-4, 2e-3}) {
+            const double v = muscle.solveStageVelocity({a, start, path, step}, 0);
+            const double end = start + step * v;
+            if (end <= muscle.minFiberLength()) {
+              continue;
+            }
+            const FiberState state = muscle.calcElastic(a, end, path);
+            EXPECT_NEAR(state.velocity, v, tol(1e-7 * (1 + std::abs(v)))) << start << " " << path;
+          }
+        }
+      }
+    }
+  }
+}
+
+// Held path, constant activation: whatever the start, the fiber settles where it rests.
+TEST(MuscleKinds, FiberSettlesAtRest) {
+  for (const MuscleKind kind : kKinds) {
+    const Muscle muscle = makeKind(kind);
+    for (const double start : {0.03, 0.05, 0.065}) {
+      double length = start;
+      for (int step = 0; step < 3000; ++step) {
+        length += 1e-3 * muscle.solveStageVelocity({0.3, length, 0.3, 1e-3}, 0);
+      }
+      EXPECT_NEAR(length, muscle.solveStaticLength(0.3, 0.3), tol(1e-6)) << start;
+    }
+  }
+}
+
+TEST(MuscleKinds, LowActivationIsHeldAtTheMinimumWhereTheBalanceNeedsIt) {
+  const Muscle muscle = makeKind(MuscleKind::kThelen2003);
+  EXPECT_EQ(muscle.solveStageVelocity({0, 0.05, 0.3, 1e-3}, 0),
+            muscle.solveStageVelocity({0.01, 0.05, 0.3, 1e-3}, 0));
 }
 
 }  // namespace
