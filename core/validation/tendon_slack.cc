@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "core/base/error.h"
 #include "core/base/units.h"
@@ -75,27 +74,10 @@ std::vector<const FiberTarget*> assignTargets(const ModelSpec& model,
   return assigned;
 }
 
-// Curves of the muscle asked for last: most models have one set for all.
-class SharedCurves {
- public:
-  const MuscleCurves& get(const MuscleCurvesSpec& spec) {
-    if (!curves_ || !haveSameCurves(*spec_, spec)) {
-      curves_.emplace(spec);
-      spec_ = &spec;
-    }
-    return *curves_;
-  }
-
- private:
-  std::optional<MuscleCurves> curves_;
-  const MuscleCurvesSpec* spec_ = nullptr;
-};
-
 SlackCalibration calibrate(const MuscleSpec& spec,
                            const PosedMuscles& posed,
                            MuscleIndex m,
-                           const FiberTarget* target,
-                           SharedCurves& curves) {
+                           const FiberTarget* target) {
   SlackCalibration row;
   row.muscle = spec.name;
   row.tendon = spec.tendon;
@@ -116,7 +98,7 @@ SlackCalibration calibrate(const MuscleSpec& spec,
                                       row.norm_fiber_length,
                                       spec.pennation_at_optimal,
                                       spec.tendon},
-                                     curves.get(spec.curves));
+                                     posed.muscle(m));
   require(row.slack_length > 0,
           ErrorCode::kInputValue,
           "muscle '" + spec.name + "' cannot have a fiber of " +
@@ -130,10 +112,10 @@ SlackCalibration calibrate(const MuscleSpec& spec,
 
 }  // namespace
 
-double solveTendonStretch(const QuinticCurve& tendon_force_length, double force) noexcept {
-  double low = tendon_force_length.startX();
-  double high = tendon_force_length.endX();
-  const CurvePoint end = tendon_force_length.calc(high);
+double solveTendonStretch(const Muscle& muscle, double force) noexcept {
+  double low = 1;
+  double high = muscle.tendonLineStart();
+  const CurvePoint end = muscle.calcTendonForceLength(high);
   if (!(force > 0)) {
     return low;
   }
@@ -143,7 +125,7 @@ double solveTendonStretch(const QuinticCurve& tendon_force_length, double force)
   // Newton steps inside a bracket, from where a parabola through the toe has this force.
   double x = low + (high - low) * std::sqrt(force / end.value);
   for (int step = 0; step < kMaxSteps; ++step) {
-    const CurvePoint at = tendon_force_length.calc(x);
+    const CurvePoint at = muscle.calcTendonForceLength(x);
     const double error = at.value - force;
     (error > 0 ? high : low) = x;
     double next = x - error / at.slope;
@@ -159,7 +141,7 @@ double solveTendonStretch(const QuinticCurve& tendon_force_length, double force)
   return x;
 }
 
-double calcTendonSlack(const SlackInput& input, const MuscleCurves& curves) noexcept {
+double calcTendonSlack(const SlackInput& input, const Muscle& muscle) noexcept {
   const double l = input.norm_fiber_length;
   const double sin = std::sin(input.pennation_at_optimal) / l;
   if (!(l > 0 && std::abs(sin) < 1 && input.optimal_fiber_length > 0)) {
@@ -170,10 +152,10 @@ double calcTendonSlack(const SlackInput& input, const MuscleCurves& curves) noex
   if (input.tendon == TendonKind::kRigid) {
     return tendon_length;
   }
-  const double force = (kCalibrationActivation * curves.active_force_length.calc(l).value +
-                        curves.passive_force_length.calc(l).value) *
+  const double force = (kCalibrationActivation * muscle.calcActiveForceLength(l).value +
+                        muscle.calcPassiveForceLength(l).value) *
                        cos;
-  return tendon_length / solveTendonStretch(curves.tendon_force_length, force);
+  return tendon_length / solveTendonStretch(muscle, force);
 }
 
 std::vector<SlackCalibration> calibrateTendonSlack(const ModelSpec& model,
@@ -182,11 +164,10 @@ std::vector<SlackCalibration> calibrateTendonSlack(const ModelSpec& model,
   const std::vector<const FiberTarget*> assigned = assignTargets(model, targets);
   PosedMuscles posed(model);
   posed.setPose(pose);
-  SharedCurves curves;
   std::vector<SlackCalibration> rows;
   for (std::size_t m = 0; m < model.muscles.size(); ++m) {
     rows.push_back(
-        calibrate(model.muscles[m], posed, MuscleIndex(static_cast<int>(m)), assigned[m], curves));
+        calibrate(model.muscles[m], posed, MuscleIndex(static_cast<int>(m)), assigned[m]));
   }
   return rows;
 }

@@ -5,7 +5,7 @@
 
 #include "core/data/fiber_target.h"
 #include "core/data/model_spec.h"
-#include "core/muscle/muscle_curves.h"
+#include "core/muscle/muscle.h"
 
 namespace gaitmill {
 
@@ -24,11 +24,12 @@ struct SlackInput {
 ///   lsT = (L - l~ l0M cos alpha) / (1 + eps(f)),   eps the inverse tendon curve, 0 if rigid
 /// Negative where the fiber is longer than the path: nothing is left for a tendon.
 /// @returns NaN where pennation is undefined (l~ <= |sin alpha_o|) or l0M is not positive
-double calcTendonSlack(const SlackInput& input, const MuscleCurves& curves) noexcept;
+/// @param muscle  for its curves; its size plays no part
+double calcTendonSlack(const SlackInput& input, const Muscle& muscle) noexcept;
 
 /// Tendon length over slack length at which the curve has this force, both normalised; 1 for
 /// forces <= 0. Solves to round-off.
-double solveTendonStretch(const QuinticCurve& tendon_force_length, double force) noexcept;
+double solveTendonStretch(const Muscle& muscle, double force) noexcept;
 
 /// One row of a calibration.
 struct SlackCalibration {

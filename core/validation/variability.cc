@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 
 #include "core/base/error.h"
 #include "core/base/units.h"
@@ -42,9 +41,9 @@ SlackVariation makeVariation(const SlackCalibration& rest,
 
 // sigma_l~/l~ that explains to first order what the other two leave of the printed spread.
 double inferNormLengthCv(const SlackVariation& variation,
-                         const MuscleCurves& curves,
+                         const Muscle& muscle,
                          const PublishedParameters& published) {
-  const SlackSensitivity by = calcSensitivity(variation.mean, curves);
+  const SlackSensitivity by = calcSensitivity(variation.mean, muscle);
   const double left = square(0.01 * published.slack_cm.sd) -
                       square(by.by_fiber * variation.fiber_sd) -
                       square(by.by_pennation * variation.pennation_sd);
@@ -71,16 +70,16 @@ struct SlackDraws {
 
 void fillSlack(ParameterSpread& row,
                SlackVariation variation,
-               const MuscleCurves& curves,
+               const Muscle& muscle,
                std::map<std::string, double>& norm_length_cv,
                SlackDraws& draws) {
-  const double cv = inferNormLengthCv(variation, curves, *row.published);
+  const double cv = inferNormLengthCv(variation, muscle, *row.published);
   const auto [known, is_first] = norm_length_cv.insert({row.published->fibers_of, cv});
   row.is_prediction_of_slack = !is_first;
   row.norm_length_cv = known->second;
-  row.slack_by_fiber = drawTendonSlack(variation, curves, draws.normal, draws.draws);
+  row.slack_by_fiber = drawTendonSlack(variation, muscle, draws.normal, draws.draws);
   variation.norm_length_sd = row.norm_length_cv * variation.mean.norm_fiber_length;
-  row.slack = drawTendonSlack(variation, curves, draws.normal, draws.draws);
+  row.slack = drawTendonSlack(variation, muscle, draws.normal, draws.draws);
   row.pennation_by_length = calcPennationSpread(variation.mean.pennation_at_optimal,
                                                 variation.mean.norm_fiber_length,
                                                 variation.norm_length_sd);
@@ -89,7 +88,7 @@ void fillSlack(ParameterSpread& row,
 }  // namespace
 
 SlackSpread drawTendonSlack(const SlackVariation& variation,
-                            const MuscleCurves& curves,
+                            const Muscle& muscle,
                             NormalDraws& normal,
                             int draws) {
   SlackSpread spread;
@@ -102,7 +101,7 @@ SlackSpread drawTendonSlack(const SlackVariation& variation,
     input.optimal_fiber_length += variation.fiber_sd * normal.draw();
     input.norm_fiber_length += variation.norm_length_sd * normal.draw();
     input.pennation_at_optimal += variation.pennation_sd * normal.draw();
-    const double slack = calcTendonSlack(input, curves);
+    const double slack = calcTendonSlack(input, muscle);
     if (std::isnan(slack)) {
       ++spread.rejected;
       continue;
@@ -117,7 +116,7 @@ SlackSpread drawTendonSlack(const SlackVariation& variation,
   return spread;
 }
 
-SlackSensitivity calcSensitivity(const SlackInput& input, const MuscleCurves& curves) {
+SlackSensitivity calcSensitivity(const SlackInput& input, const Muscle& muscle) {
   // Central differences: the curves are C2, so the error is some 1e-9 of the value.
   constexpr double kStep = 1e-5;
   const auto slope = [&](double SlackInput::*member, double step) {
@@ -125,7 +124,7 @@ SlackSensitivity calcSensitivity(const SlackInput& input, const MuscleCurves& cu
     SlackInput high = input;
     low.*member -= step;
     high.*member += step;
-    return (calcTendonSlack(high, curves) - calcTendonSlack(low, curves)) / (2 * step);
+    return (calcTendonSlack(high, muscle) - calcTendonSlack(low, muscle)) / (2 * step);
   };
   return {slope(&SlackInput::optimal_fiber_length, kStep * input.optimal_fiber_length),
           slope(&SlackInput::norm_fiber_length, kStep),
@@ -151,8 +150,7 @@ std::vector<ParameterSpread> calcParameterSpreads(const ModelSpec& model,
   std::map<std::string, double> norm_length_cv;
   SlackDraws draws{NormalDraws(options.seed), options.draws};
   const std::vector<SlackCalibration> rests = calibrateTendonSlack(model, {});
-  std::optional<MuscleCurves> curves;
-  const MuscleCurvesSpec* curves_of = nullptr;
+  const std::vector<Muscle> muscles = makeMuscles(model.muscles);
   for (const PublishedParameters& published : publishedParameters()) {
     const int m = model.findMuscle(published.muscle + "_r");
     if (m < 0) {
@@ -160,17 +158,17 @@ std::vector<ParameterSpread> calcParameterSpreads(const ModelSpec& model,
     }
     const MuscleSpec& muscle = model.muscles[static_cast<std::size_t>(m)];
     const SlackCalibration& rest = rests[static_cast<std::size_t>(m)];
-    if (!curves || !haveSameCurves(*curves_of, muscle.curves)) {
-      curves.emplace(muscle.curves);
-      curves_of = &muscle.curves;
-    }
     ParameterSpread row;
     row.muscle = muscle.name;
     row.published = &published;
     row.norm_fiber_length = rest.norm_fiber_length;
     fillForce(row, muscle.max_isometric_force, volume_cv);
     if (!std::isnan(published.slack_cm.sd)) {
-      fillSlack(row, makeVariation(rest, muscle, published), *curves, norm_length_cv, draws);
+      fillSlack(row,
+                makeVariation(rest, muscle, published),
+                muscles[static_cast<std::size_t>(m)],
+                norm_length_cv,
+                draws);
     } else {
       row.slack.sd = row.slack_by_fiber.sd = row.norm_length_cv = row.pennation_by_length = kNone;
     }

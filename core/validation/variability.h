@@ -32,7 +32,7 @@ struct SlackSpread {
 
 /// Draws l0M, l~ and alpha_o, in this order, and calibrates the slack length each time (I4, I7).
 SlackSpread drawTendonSlack(const SlackVariation& variation,
-                            const MuscleCurves& curves,
+                            const Muscle& muscle,
                             NormalDraws& normal,
                             int draws);
 
@@ -42,7 +42,7 @@ struct SlackSensitivity {
   double by_norm_length = 0;  ///< d lsT / d l~ [m]
   double by_pennation = 0;    ///< d lsT / d alpha_o [m/rad]
 };
-SlackSensitivity calcSensitivity(const SlackInput& input, const MuscleCurves& curves);
+SlackSensitivity calcSensitivity(const SlackInput& input, const Muscle& muscle);
 
 /// Spread of pennation at optimal fiber length that a spread of measured normalised length makes
 /// (first term of I6): sin alpha/D sigma_l~ with alpha the pennation at l~ [rad].

@@ -10,28 +10,35 @@
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/validation/posed_muscles.h"
+#include "tests/core/validation/unit_muscle.h"
 #include "tests/support/model_files.h"
 #include "tests/support/tolerance.h"
 
 namespace gaitmill {
 namespace {
 
-const MuscleCurves& curves() {
-  static const MuscleCurves shared{MuscleCurvesSpec{}};
+// The curves of Rajagopal2016.
+const Muscle& curves() {
+  static const Muscle shared = makeMuscleOfUnitSize(MuscleKind::kMillard2012);
   return shared;
 }
 
 TEST(TendonStretch, InvertsTheCurveFromToeToBeyondMaximumForce) {
-  const QuinticCurve& tendon = curves().tendon_force_length;
-  for (const double force : {1e-12, 1e-6, 0.003, 0.0078, 0.2, 0.66, 2.0 / 3, 1.0, 1.7}) {
-    const double stretch = solveTendonStretch(tendon, force);
-    EXPECT_NEAR(tendon.calc(stretch).value, force, tol(1e-14)) << force;
+  for (const MuscleKind kind :
+       {MuscleKind::kMillard2012, MuscleKind::kThelen2003, MuscleKind::kSchutte1993}) {
+    const Muscle tendon = makeMuscleOfUnitSize(kind);
+    for (const double force : {1e-12, 1e-6, 0.003, 0.0078, 0.2, 0.66, 2.0 / 3, 1.0, 1.7}) {
+      const double stretch = solveTendonStretch(tendon, force);
+      EXPECT_NEAR(tendon.calcTendonForceLength(stretch).value, force, tol(2e-14)) << force;
+    }
+    EXPECT_EQ(solveTendonStretch(tendon, 0), 1.0);
+    EXPECT_EQ(solveTendonStretch(tendon, -1), 1.0);
   }
-  EXPECT_EQ(solveTendonStretch(tendon, 0), 1.0);
-  EXPECT_EQ(solveTendonStretch(tendon, -1), 1.0);
-  // spec/muscle.md 11.9
-  EXPECT_NEAR(solveTendonStretch(tendon, 0.0376044936314), 1.005, tol(1e-12));
-  EXPECT_NEAR(solveTendonStretch(tendon, 1), 1.049, tol(1e-14));
+  // spec/muscle.md 11.9, 10
+  EXPECT_NEAR(solveTendonStretch(curves(), 0.0376044936314), 1.005, tol(1e-12));
+  EXPECT_NEAR(solveTendonStretch(curves(), 1), 1.049, tol(1e-14));
+  EXPECT_NEAR(
+      solveTendonStretch(makeMuscleOfUnitSize(MuscleKind::kThelen2003), 1), 1.04, tol(1e-14));
 }
 
 // Without pennation and passive force: l_t = L - l~ l0, and the tendon carries 0.01 fAL(l~).
@@ -40,7 +47,7 @@ TEST(TendonSlack, UnpennatedMuscleByHand) {
   input.path_length = 0.35;
   input.optimal_fiber_length = 0.05;
   input.norm_fiber_length = 1.0;
-  const double stretch = solveTendonStretch(curves().tendon_force_length, 0.01);
+  const double stretch = solveTendonStretch(curves(), 0.01);
   EXPECT_NEAR(calcTendonSlack(input, curves()), 0.3 / stretch, tol(1e-15));
   // Between 1.002 (0.0073) and 1.003 (0.0163) of spec/muscle.md 11.9.
   EXPECT_GT(stretch, 1.002);

@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "tests/core/validation/unit_muscle.h"
 #include "tests/support/model_files.h"
 #include "tests/support/tolerance.h"
 
@@ -71,7 +72,7 @@ TEST(TendonSlackSpread, MonteCarloMeetsTheClosedFormOfASimpleMuscle) {
   variation.fiber_sd = 0.015;
   variation.norm_length_sd = 0.12;
   NormalDraws normal(7);
-  const MuscleCurves curves{MuscleCurvesSpec{}};
+  const Muscle curves = makeMuscleOfUnitSize(MuscleKind::kMillard2012);
   const SlackSpread spread = drawTendonSlack(variation, curves, normal, 10000);
   const double exact =
       std::sqrt(0.9 * 0.9 * 0.015 * 0.015 + 0.1 * 0.1 * 0.12 * 0.12 + 0.015 * 0.015 * 0.12 * 0.12);
@@ -90,7 +91,7 @@ TEST(TendonSlackSpread, MonteCarloMeetsFirstOrderPropagationForSmallSpreads) {
   variation.norm_length_sd = 0.0079;
   variation.pennation_sd = 0.0038;
   NormalDraws normal(7);
-  const MuscleCurves curves{MuscleCurvesSpec{}};
+  const Muscle curves = makeMuscleOfUnitSize(MuscleKind::kMillard2012);
   const SlackSensitivity by = calcSensitivity(variation.mean, curves);
   const double first_order = std::sqrt(std::pow(by.by_fiber * variation.fiber_sd, 2) +
                                        std::pow(by.by_norm_length * variation.norm_length_sd, 2) +
@@ -105,7 +106,7 @@ TEST(TendonSlackSpread, UndefinedPennationIsRejectedAndCounted) {
   variation.norm_length_sd = 0.05;  // half of the draws lie below sin(alpha_o)
   NormalDraws normal(7);
   const SlackSpread spread =
-      drawTendonSlack(variation, MuscleCurves{MuscleCurvesSpec{}}, normal, 10000);
+      drawTendonSlack(variation, makeMuscleOfUnitSize(MuscleKind::kMillard2012), normal, 10000);
   EXPECT_NEAR(spread.rejected, 5000, 5 * 50);
   EXPECT_TRUE(std::isfinite(spread.sd));
 }
