@@ -2,127 +2,157 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <string_view>
+#include <optional>
+#include <utility>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 
 namespace gaitmill {
 
 namespace {
 
-// A foot is 0.3 m long and its markers sit at both ends, so that the centre of pressure of its own
-// foot lies within some 0.1 m of one of them, and the other foot a step away.
-constexpr double kLargestDistance = 0.25;  // [m]
-constexpr double kLeastDifference = 0.05;  // [m]
-constexpr int kSamplesPerContact = 50;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kStep = 0.01;             // [s] between the samples that are looked at
+constexpr double kLargestDistance = 0.25;  // [m] of a foot that may be meant at all
+constexpr double kDistanceScale = 0.05;    // [m] that doubles as the least separation
+constexpr double kSpeedScale = 1.0;        // [m/s] a swinging foot passes the pelvis at 1.3 to 4
+constexpr double kSpeedSpan = 0.02;        // [s] to each side for a speed
+// Half a foot's width, and the 5 cm by which loaded centres of pressure of good trials lie outside.
+constexpr double kSole = 0.10;          // [m]
+constexpr double kOutsideShare = 0.25;  // of the loaded samples
+constexpr double kLoadedShare = 0.2;    // of the contact's peak force
+// A centre of pressure under a foot: within its sole, and clearly further from the other one.
+constexpr double kUnderFoot = 0.08;            // [m]
+constexpr double kClearlyFurther = 0.03;       // [m]
+constexpr double kLeastTimeOfFoot = 0.08;      // [s] under each foot of a plate that serves both
+constexpr double kLeastRun = 0.045;            // [s] under one foot without interruption
+constexpr double kLongestDoubleSupport = 0.4;  // [s]
 
-/// "lab:R.Heel_2" -> "RHEEL2"
-std::string normalize(const std::string& marker) {
-  std::string letters;
-  for (const char c : marker.substr(marker.rfind(':') + 1)) {
-    if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
-      letters += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    }
-  }
-  return letters;
-}
-
-bool startsWith(std::string_view text, std::string_view start) {
-  return text.substr(0, start.size()) == start;
-}
-
-bool namesPartOfAFoot(std::string_view letters) {
-  constexpr std::array<std::string_view, 9> kParts = {
-      "HEE", "CAL", "TOE", "MT", "ANK", "MAL", "LMAL", "MMAL", "FOOT"};
-  return std::any_of(kParts.begin(), kParts.end(), [&](std::string_view part) {
-    return startsWith(letters, part);
-  });
-}
-
-Foot readSide(char letter) {
-  return letter == 'R' ? Foot::kRight : letter == 'L' ? Foot::kLeft : Foot::kUnknown;
-}
-
-/// Markers of both feet, as positions in the list of markers.
-struct FootMarkers {
-  std::vector<int> right;
-  std::vector<int> left;
+/// What is seen at one instant of a contact; arrays hold right, left.
+struct Sample {
+  double time = 0;
+  double vertical = 0;                            ///< [N]
+  std::array<double, 2> distance = {kNaN, kNaN};  ///< of the centre of pressure to the foot [m]
+  std::array<double, 2> speed = {kNaN, kNaN};     ///< of the foot against the pelvis, forward [m/s]
+  bool is_between = false;  ///< the centre of pressure lies between the feet, under neither
 };
 
-FootMarkers findFootMarkers(const MarkerTrajectories& markers) {
-  FootMarkers found;
-  for (int i = 0; i < markers.markerCount(); ++i) {
-    const Foot foot = findFootOfMarker(markers.names[static_cast<std::size_t>(i)]);
-    if (foot != Foot::kUnknown) {
-      (foot == Foot::kRight ? found.right : found.left).push_back(i);
+constexpr std::array<Foot, 2> kFeet = {Foot::kRight, Foot::kLeft};
+
+double findMedian(std::vector<double> values) {
+  values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return std::isnan(v); }),
+               values.end());
+  if (values.empty()) {
+    return kNaN;
+  }
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The evidence about one foot over some samples.
+struct Evidence {
+  Foot foot = Foot::kUnknown;
+  double confidence = 0;
+  std::string reason;
+};
+
+std::string describe(const std::array<double, 2>& distance, const std::array<double, 2>& speed) {
+  std::string text = "centre of pressure";
+  const char* separator = " ";
+  for (const std::size_t i : {0U, 1U}) {
+    if (!std::isnan(distance[i])) {
+      text +=
+          separator + formatFixed(distance[i], 2) + " m from the " + footName(kFeet[i]) + " foot";
+      if (!std::isnan(speed[i])) {
+        text += " (" + formatFixed(speed[i], 1) + " m/s against the pelvis)";
+      }
+      separator = ", ";
     }
   }
-  return found;
+  return text;
 }
 
-/// Horizontal distance of a point to the nearest of some markers [m]; infinite if none is seen.
-double calcDistance(const Eigen::Vector3d& point,
-                    const MarkerTrajectories& markers,
-                    int frame,
-                    const std::vector<int>& candidates) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const int marker : candidates) {
-    if (!markers.isMissing(frame, marker)) {
-      const Eigen::Vector3d offset = markers.position(frame, marker) - point;
-      nearest = std::min(nearest, std::hypot(offset.x(), offset.z()));
-    }
+Evidence weigh(const std::array<double, 2>& distance, const std::array<double, 2>& speed) {
+  if (std::isnan(distance[0]) && std::isnan(distance[1])) {
+    return {Foot::kUnknown, 0, "no foot marker is seen"};
   }
-  return nearest;
-}
-
-/// The frame nearest to a time that the markers cover, or -1.
-int findFrame(const MarkerTrajectories& markers, double time) {
-  const std::vector<double>& times = markers.time;
-  if (times.empty() || time < times.front() || time > times.back()) {
-    return -1;
+  const bool left_is_nearer = std::isnan(distance[0]) || distance[1] < distance[0];
+  const std::size_t near = left_is_nearer ? 1 : 0;
+  const std::size_t far = 1 - near;
+  // A foot that is not seen is somewhere else for all we know.
+  const double other = std::isnan(distance[far]) ? distance[near] + 0.2 : distance[far];
+  const double faster = speed[far] - speed[near];
+  const double score =
+      (other - distance[near]) / kDistanceScale + (std::isnan(faster) ? 0.0 : faster / kSpeedScale);
+  const double plausibility = std::exp(-std::max(0.0, distance[near] - kSole) / 0.1);
+  Evidence evidence;
+  evidence.confidence = plausibility / (1 + std::exp(-score));
+  evidence.reason = describe(distance, speed);
+  if (distance[near] <= kLargestDistance && evidence.confidence >= kLeastConfidence) {
+    evidence.foot = kFeet[near];
   }
-  const auto above = std::lower_bound(times.begin(), times.end(), time);
-  const auto frame = static_cast<int>(above - times.begin());
-  return frame > 0 && time - *(above - 1) < *above - time ? frame - 1 : frame;
+  return evidence;
 }
 
-/// Sums the distances of both feet over the samples of one contact.
+/// Looks at the contacts of one recording.
 class FootSearch {
  public:
-  FootSearch(const GroundReaction& reaction, const MarkerTrajectories& markers)
-      : reaction_(reaction), markers_(markers), feet_(findFootMarkers(markers)) {}
+  FootSearch(const GroundReaction& reaction, const GaitMotion& motion)
+      : reaction_(reaction), motion_(motion) {}
 
-  Foot find(const ExternalForce& force, const Contact& contact) const {
-    double right = 0;
-    double left = 0;
-    int samples = 0;
-    for (int i = 1; i < kSamplesPerContact; ++i) {
-      const double share = static_cast<double>(i) / kSamplesPerContact;
-      const double time = contact.strike + share * (contact.toe_off - contact.strike);
-      const int frame = findFrame(markers_, time);
+  std::vector<Sample> sample(const ExternalForce& force, const Contact& contact) const {
+    std::vector<Sample> samples;
+    const double duration = contact.toe_off - contact.strike;
+    const int count = std::max(50, static_cast<int>(duration / kStep));
+    for (int i = 1; i < count; ++i) {
+      const double time = contact.strike + duration * i / count;
+      const int frame = motion_.findFrame(time);
       const Eigen::Index row = findRow(time);
       if (frame < 0 || force.force(1, row) <= 0 || !force.point.col(row).allFinite()) {
         continue;
       }
-      right += calcDistance(force.point.col(row), markers_, frame, feet_.right);
-      left += calcDistance(force.point.col(row), markers_, frame, feet_.left);
-      ++samples;
+      samples.push_back(look(time, force, row, frame));
     }
-    return samples == 0 ? Foot::kUnknown : judge(right / samples, left / samples);
+    return samples;
   }
 
  private:
-  static Foot judge(double right, double left) {
-    const bool near = std::min(right, left) <= kLargestDistance;
-    const bool clear = std::abs(right - left) >= kLeastDifference;
-    if (!near || !clear) {
-      return Foot::kUnknown;
+  Sample look(double time, const ExternalForce& force, Eigen::Index row, int frame) const {
+    Sample sample;
+    sample.time = time;
+    sample.vertical = force.force(1, row);
+    for (const std::size_t i : {0U, 1U}) {
+      const FootMotion& foot = motion_.foot(kFeet[i]);
+      sample.distance[i] = foot.calcDistance(force.point.col(row), frame);
+      sample.speed[i] = calcSpeed(foot, frame);
     }
-    return right < left ? Foot::kRight : Foot::kLeft;
+    const auto [right, left] = sample.distance;
+    const Eigen::Vector3d apart =
+        0.5 * (motion_.right.heel.col(frame) + motion_.right.toe.col(frame) -
+               motion_.left.heel.col(frame) - motion_.left.toe.col(frame));
+    const double span = std::hypot(apart.x(), apart.z());
+    sample.is_between = std::min(right, left) > kUnderFoot && std::abs(right - left) < 0.5 * span;
+    return sample;
+  }
+
+  double calcSpeed(const FootMotion& foot, int frame) const {
+    const auto last = static_cast<int>(motion_.time.size()) - 1;
+    const double time = motion_.time[static_cast<std::size_t>(frame)];
+    const auto lead = [&](int at) {
+      const Eigen::Vector3d middle = 0.5 * (foot.heel.col(at) + foot.toe.col(at));
+      return (middle - motion_.pelvis.col(at)).dot(motion_.forward);
+    };
+    const int before = std::max(0, std::min(frame - 1, motion_.findFrame(time - kSpeedSpan)));
+    const int at_or_after = motion_.findFrame(time + kSpeedSpan);
+    const int after = std::min(last, std::max(frame + 1, at_or_after));
+    const double span = motion_.time[static_cast<std::size_t>(after)] -
+                        motion_.time[static_cast<std::size_t>(before)];
+    return span > 0 ? (lead(after) - lead(before)) / span : kNaN;
   }
 
   Eigen::Index findRow(double time) const {
@@ -132,37 +162,266 @@ class FootSearch {
   }
 
   const GroundReaction& reaction_;
-  const MarkerTrajectories& markers_;
-  FootMarkers feet_;
+  const GaitMotion& motion_;
 };
+
+Evidence judge(const std::vector<Sample>& samples, const Contact& contact) {
+  const double third = (contact.toe_off - contact.strike) / 3;
+  std::array<std::vector<double>, 2> distance;
+  std::array<std::vector<double>, 2> speed;
+  for (const Sample& sample : samples) {
+    if (sample.time < contact.strike + third || sample.time > contact.toe_off - third) {
+      continue;
+    }
+    for (const std::size_t i : {0U, 1U}) {
+      distance[i].push_back(sample.distance[i]);
+      speed[i].push_back(sample.speed[i]);
+    }
+  }
+  return weigh({findMedian(distance[0]), findMedian(distance[1])},
+               {findMedian(speed[0]), findMedian(speed[1])});
+}
+
+/// The foot under which a centre of pressure lies for sure.
+Foot findFootUnder(const Sample& sample) {
+  const auto [right, left] = sample.distance;
+  if (right <= kUnderFoot && !(left <= right + kClearlyFurther)) {
+    return Foot::kRight;
+  }
+  if (left <= kUnderFoot && !(right <= left + kClearlyFurther)) {
+    return Foot::kLeft;
+  }
+  return Foot::kUnknown;
+}
+
+/// Time that a plate spends under one foot without interruption.
+struct Run {
+  Foot foot = Foot::kUnknown;
+  double start = 0;
+  double end = 0;
+};
+
+std::vector<Run> findRuns(const std::vector<Sample>& samples) {
+  std::vector<Run> runs;
+  std::optional<Run> open;
+  const auto close = [&] {
+    if (open && open->end - open->start >= kLeastRun) {
+      if (!runs.empty() && runs.back().foot == open->foot) {
+        runs.back().end = open->end;
+      } else {
+        runs.push_back(*open);
+      }
+    }
+    open.reset();
+  };
+  for (const Sample& sample : samples) {
+    const Foot foot = findFootUnder(sample);
+    if (open && open->foot == foot) {
+      open->end = sample.time;
+      continue;
+    }
+    close();
+    if (foot != Foot::kUnknown) {
+      open = Run{foot, sample.time, sample.time};
+    }
+  }
+  close();
+  return runs;
+}
+
+/// Whether the runs are those of a plate that serves both feet.
+bool servesBothFeet(const std::vector<Run>& runs) {
+  std::array<double, 2> total = {0, 0};
+  for (const Run& run : runs) {
+    total[run.foot == Foot::kLeft ? 1 : 0] += run.end - run.start;
+  }
+  return std::min(total[0], total[1]) >= kLeastTimeOfFoot;
+}
+
+bool liesBetweenFeet(const std::vector<Sample>& samples) {
+  const auto between = std::count_if(
+      samples.begin(), samples.end(), [](const Sample& sample) { return sample.is_between; });
+  return 2 * static_cast<std::size_t>(between) > samples.size();
+}
+
+/// The event of that kind nearest to a time within a reach, else the time itself.
+double findEvent(const std::vector<GaitEvent>& events,
+                 GaitEvent::Kind kind,
+                 Foot foot,
+                 double low,
+                 double high,
+                 double otherwise) {
+  for (const GaitEvent& event : events) {
+    if (event.kind == kind && event.foot == foot && event.time > low && event.time < high) {
+      return event.time;
+    }
+  }
+  return otherwise;
+}
+
+void markOutside(const std::vector<Sample>& samples, FootContact& contact) {
+  double peak = 0;
+  for (const Sample& sample : samples) {
+    peak = std::max(peak, sample.vertical);
+  }
+  int loaded = 0;
+  int outside = 0;
+  for (const Sample& sample : samples) {
+    const double distance = sample.distance[contact.foot == Foot::kLeft ? 1 : 0];
+    const bool inside_contact =
+        sample.time >= contact.contact.strike && sample.time <= contact.contact.toe_off;
+    if (inside_contact && sample.vertical > kLoadedShare * peak && !std::isnan(distance)) {
+      ++loaded;
+      outside += distance > kSole ? 1 : 0;
+    }
+  }
+  contact.is_outside_sole = loaded > 0 && outside > kOutsideShare * loaded;
+}
+
+/// One contact of a plate as the contacts of its feet.
+class ContactSplitter {
+ public:
+  ContactSplitter(const std::string& plate,
+                  const Contact& contact,
+                  const std::vector<Sample>& samples,
+                  const std::vector<GaitEvent>& events)
+      : plate_(plate), contact_(contact), samples_(samples), events_(events) {}
+
+  std::vector<FootContact> split() const {
+    const std::vector<Run> runs = findRuns(samples_);
+    if (servesBothFeet(runs)) {
+      return splitAt(runs);
+    }
+    FootContact whole{plate_, Foot::kUnknown, contact_};
+    const Evidence evidence = judge(samples_, contact_);
+    whole.foot = evidence.foot;
+    whole.seen = evidence.foot;
+    whole.confidence = evidence.confidence;
+    whole.reason = evidence.reason;
+    if (liesBetweenFeet(samples_)) {
+      whole.foot = Foot::kUnknown;
+      whole.is_shared = true;
+      whole.reason += "; it lies between the feet";
+    }
+    return {whole};
+  }
+
+ private:
+  std::vector<FootContact> splitAt(const std::vector<Run>& runs) const {
+    std::vector<FootContact> parts;
+    double start = contact_.strike;
+    bool has_strike = contact_.has_strike;
+    for (std::size_t i = 0; i + 1 < runs.size(); ++i) {
+      const Run& last = runs[i];
+      const Run& next = runs[i + 1];
+      const double both_from = std::clamp(findEvent(events_,
+                                                    GaitEvent::Kind::kFootStrike,
+                                                    next.foot,
+                                                    next.start - kLongestDoubleSupport,
+                                                    next.start,
+                                                    last.end),
+                                          last.start,
+                                          last.end);
+      const double both_to = std::clamp(findEvent(events_,
+                                                  GaitEvent::Kind::kToeOff,
+                                                  last.foot,
+                                                  last.end,
+                                                  last.end + kLongestDoubleSupport,
+                                                  next.start),
+                                        next.start,
+                                        next.end);
+      parts.push_back(makePart(last.foot, {start, both_from, has_strike, false}));
+      FootContact both{plate_, Foot::kUnknown, {both_from, both_to, false, false}};
+      both.is_shared = true;
+      both.confidence = 1;
+      both.reason = std::string("the centre of pressure moves from the ") + footName(last.foot) +
+                    " to the " + footName(next.foot) + " foot";
+      parts.push_back(both);
+      start = both_to;
+      has_strike = false;
+    }
+    parts.push_back(
+        makePart(runs.back().foot, {start, contact_.toe_off, has_strike, contact_.has_toe_off}));
+    return parts;
+  }
+
+  FootContact makePart(Foot foot, const Contact& contact) const {
+    FootContact part{plate_, foot, contact};
+    const Evidence evidence = judge(samples_, contact);
+    part.seen = foot;
+    part.confidence = evidence.foot == foot ? evidence.confidence : kLeastConfidence;
+    part.reason = evidence.reason;
+    return part;
+  }
+
+  const std::string& plate_;
+  const Contact& contact_;
+  const std::vector<Sample>& samples_;
+  const std::vector<GaitEvent>& events_;
+};
+
+FootContact believe(const std::string& plate,
+                    Foot named,
+                    const Contact& contact,
+                    const std::vector<Sample>& samples) {
+  FootContact believed{plate, named, contact};
+  const Evidence evidence = judge(samples, contact);
+  believed.seen = evidence.foot;
+  believed.reason = std::string("the columns or settings name the ") + footName(named) + " foot; " +
+                    evidence.reason;
+  const bool contradicted = evidence.foot == otherFoot(named);
+  believed.confidence = contradicted                      ? 1 - evidence.confidence
+                        : evidence.foot == Foot::kUnknown ? kLeastConfidence
+                                                          : evidence.confidence;
+  return believed;
+}
+
+void state(const std::vector<ContactStatement>& statements, std::vector<FootContact>& contacts) {
+  for (std::size_t i = 0; i < statements.size(); ++i) {
+    const ContactStatement& statement = statements[i];
+    const auto found =
+        std::find_if(contacts.begin(), contacts.end(), [&](const FootContact& contact) {
+          return contact.plate == statement.plate && contact.contact.strike <= statement.time &&
+                 statement.time <= contact.contact.toe_off;
+        });
+    require(found != contacts.end(),
+            ErrorCode::kSettingsValue,
+            "'" + statement.plate + "' has no contact at " + formatFixed(statement.time, 3) + " s",
+            {{}, 0, 0, "trial.contacts[" + std::to_string(i) + "]"});
+    found->foot = statement.foot;
+    found->is_stated = true;
+    found->is_shared = false;
+    found->is_foreign = statement.foot == Foot::kUnknown;
+    found->confidence = 1;
+    found->reason = "stated in the settings; " + found->reason;
+  }
+}
 
 }  // namespace
 
-Foot findFootOfMarker(const std::string& marker) {
-  const std::string letters = normalize(marker);
-  if (letters.size() < 3) {
-    return Foot::kUnknown;
-  }
-  const std::string_view all(letters);
-  if (readSide(all.front()) != Foot::kUnknown && namesPartOfAFoot(all.substr(1))) {
-    return readSide(all.front());
-  }
-  return namesPartOfAFoot(all) ? readSide(all.back()) : Foot::kUnknown;
-}
-
 std::vector<FootContact> findFootContacts(const GroundReaction& reaction,
-                                          const std::vector<Foot>& feet,
-                                          const MarkerTrajectories& markers) {
-  check(feet.size() == reaction.forces.size(), "every force needs its foot, known or not");
-  const FootSearch search(reaction, markers);
+                                          const std::vector<Foot>& named,
+                                          const GaitMotion& motion,
+                                          const std::vector<GaitEvent>& marker_events,
+                                          const std::vector<ContactStatement>& statements) {
+  check(named.size() == reaction.forces.size(), "every force needs its foot, known or not");
+  const FootSearch search(reaction, motion);
   std::vector<FootContact> contacts;
-  for (std::size_t i = 0; i < feet.size(); ++i) {
+  for (std::size_t i = 0; i < named.size(); ++i) {
     const ExternalForce& force = reaction.forces[i];
     for (const Contact& contact : findContacts(reaction.time, force.force.row(1).transpose())) {
-      const Foot foot = feet[i] == Foot::kUnknown ? search.find(force, contact) : feet[i];
-      contacts.push_back({force.name, foot, contact});
+      const std::vector<Sample> samples = search.sample(force, contact);
+      std::vector<FootContact> found =
+          named[i] == Foot::kUnknown
+              ? ContactSplitter(force.name, contact, samples, marker_events).split()
+              : std::vector<FootContact>{believe(force.name, named[i], contact, samples)};
+      for (FootContact& one : found) {
+        markOutside(samples, one);
+        contacts.push_back(std::move(one));
+      }
     }
   }
+  state(statements, contacts);
   std::stable_sort(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) {
     return a.contact.strike < b.contact.strike;
   });
@@ -179,7 +438,7 @@ std::vector<GaitEvent> findGaitEvents(const std::vector<FootContact>& contacts) 
   };
   std::vector<GaitEvent> events;
   for (const FootContact& one : contacts) {
-    if (one.foot == Foot::kUnknown) {
+    if (!one.isUsable() || one.is_partial || one.isContradicted()) {
       continue;
     }
     if (one.contact.has_strike && !is_standing(one, one.contact.strike)) {

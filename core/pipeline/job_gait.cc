@@ -52,7 +52,10 @@ std::optional<GaitCycle> findGaitCycle(const Job& job) {
 }
 
 std::vector<GaitEvent> findGaitEvents(const Job& job) {
-  return findGaitEvents(findFootContacts(job.reaction, findFeet(job), job.markers));
+  return findGaitEvents(
+      findFootContacts(job.reaction,
+                       findFeet(job),
+                       makeGaitMotion(job.markers, findGaitMarkers(job.markers.names))));
 }
 
 std::vector<GaitCycle> findGaitCycles(const Job& job, Foot foot) {

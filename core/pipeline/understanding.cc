@@ -93,7 +93,10 @@ std::vector<MarkerSetSpec> readShippedMarkerSets(const std::string& models_folde
 ForceUnderstanding understandForces(const TableFile& table, const MarkerTrajectories& markers) {
   const GroundReaction reaction = readAllPlates(table);
   ForceUnderstanding understanding;
-  understanding.contacts = findFootContacts(reaction, findFamilyFeet(table.table.labels), markers);
+  understanding.contacts =
+      findFootContacts(reaction,
+                       findFamilyFeet(table.table.labels),
+                       makeGaitMotion(markers, findGaitMarkers(markers.names)));
   understanding.events = findGaitEvents(understanding.contacts);
   warnOfUnknownFeet(understanding.contacts, understanding.warnings);
   warnOfDisjointTimes(reaction.time, markers, understanding.warnings);

@@ -10,20 +10,6 @@
 namespace gaitmill {
 namespace {
 
-TEST(FindFootOfMarker, KnowsTheUsualNames) {
-  for (const char* right :
-       {"RHEE", "R.Heel", "RTOE", "RMT5", "lab:RANK", "R_MMAL", "RLMAL", "heel_r", "RCAL"}) {
-    EXPECT_EQ(findFootOfMarker(right), Foot::kRight) << right;
-  }
-  for (const char* left : {"LHEE", "L.Toe", "LMT1", "ankle_l", "LLMAL", "LCAL"}) {
-    EXPECT_EQ(findFootOfMarker(left), Foot::kLeft) << left;
-  }
-  for (const char* other :
-       {"RASI", "LCLAV", "C7", "RTH1", "SACR", "", "R", "LFAsuperior", "STRN"}) {
-    EXPECT_EQ(findFootOfMarker(other), Foot::kUnknown) << other;
-  }
-}
-
 /// A second at 100 Hz on one plate: 500 N under x = 0 from 0.2 to 0.8 s.
 GroundReaction makeOneStep() {
   GroundReaction reaction;
@@ -52,8 +38,8 @@ MarkerTrajectories makeHeels(double right_x, double left_x) {
 }
 
 Foot findOnlyFoot(const MarkerTrajectories& markers) {
-  const std::vector<FootContact> contacts =
-      findFootContacts(makeOneStep(), {Foot::kUnknown}, markers);
+  const std::vector<FootContact> contacts = findFootContacts(
+      makeOneStep(), {Foot::kUnknown}, makeGaitMotion(markers, findGaitMarkers(markers.names)));
   EXPECT_EQ(contacts.size(), 1U);
   return contacts.front().foot;
 }
