@@ -181,6 +181,8 @@ int httpStatus(ErrorCode code) {
     case ErrorCode::kTrcNumber:
     case ErrorCode::kTrcTimeOrder:
     case ErrorCode::kTrcNoRows:
+    case ErrorCode::kC3dHeader:
+    case ErrorCode::kC3dData:
     case ErrorCode::kTableHeader:
     case ErrorCode::kTableLabels:
     case ErrorCode::kTableDuplicateLabel:

@@ -4,6 +4,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "core/io/c3d_reader.h"
 #include "core/io/files.h"
 #include "core/io/osim_reader.h"
 #include "core/io/osim_writer.h"
@@ -62,6 +63,21 @@ void BM_ReadMarkers(benchmark::State& state) {
           [](const std::string& bytes) { return readTrc(bytes, "m.trc"); });
 }
 BENCHMARK(BM_ReadMarkers)->Unit(benchmark::kMillisecond);
+
+void BM_ReadC3d(benchmark::State& state) {
+  measure(state,
+          findSharedFolder() + "/data/c3d/walking2.c3d",
+          [](const std::string& bytes) { return readC3d(bytes, "m.c3d"); });
+}
+BENCHMARK(BM_ReadC3d)->Unit(benchmark::kMillisecond);
+
+// DEC integers: every number takes the longest way.
+void BM_ReadDecC3d(benchmark::State& state) {
+  measure(state,
+          findSharedFolder() + "/data/c3d/c3d_org_sample01/Eb015vi.c3d",
+          [](const std::string& bytes) { return readC3d(bytes, "m.c3d"); });
+}
+BENCHMARK(BM_ReadDecC3d)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace gaitmill
