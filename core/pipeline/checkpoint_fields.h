@@ -378,8 +378,33 @@ void visitFields(Archive& archive, Access<Archive, RraPassOptions>& value) {
 }
 
 template <class Archive>
+void visitFields(Archive& archive, Access<Archive, RraLimits>& value) {
+  auto& [rotation_rms,
+         rotation_peak,
+         translation_rms,
+         translation_peak,
+         force_rms,
+         force_peak,
+         force_peak_share,
+         moment_rms,
+         moment_peak] = value;
+  archive(rotation_rms,
+          rotation_peak,
+          translation_rms,
+          translation_peak,
+          force_rms,
+          force_peak,
+          force_peak_share,
+          moment_rms,
+          moment_peak);
+}
+
+template <class Archive>
 void visitFields(Archive& archive, Access<Archive, RraOptions>& value) {
-  auto& [passes,
+  auto& [strategy,
+         limits,
+         max_mass_change,
+         passes,
          max_passes,
          mass_tolerance,
          mass_center_tolerance,
@@ -393,7 +418,10 @@ void visitFields(Archive& archive, Access<Archive, RraOptions>& value) {
          inertia_scaling,
          window,
          integration_tolerance] = value;
-  archive(passes,
+  archive(strategy,
+          limits,
+          max_mass_change,
+          passes,
           max_passes,
           mass_tolerance,
           mass_center_tolerance,
@@ -416,6 +444,12 @@ void visitFields(Archive& archive, Access<Archive, ResidualSum>& value) {
 }
 
 template <class Archive>
+void visitFields(Archive& archive, Access<Archive, ResidualStatistics>& value) {
+  auto& [average, peak, rms] = value;
+  archive(average, peak, rms);
+}
+
+template <class Archive>
 void visitFields(Archive& archive, Access<Archive, MassAdjustment>& value) {
   auto& [average_before,
          average_after,
@@ -424,7 +458,9 @@ void visitFields(Archive& archive, Access<Archive, MassAdjustment>& value) {
          shift_limited,
          mass_before,
          mass_change,
-         mass_after] = value;
+         mass_after,
+         mass_limited,
+         desired] = value;
   archive(average_before,
           average_after,
           shift_x,
@@ -432,7 +468,9 @@ void visitFields(Archive& archive, Access<Archive, MassAdjustment>& value) {
           shift_limited,
           mass_before,
           mass_change,
-          mass_after);
+          mass_after,
+          mass_limited,
+          desired);
 }
 
 template <class Archive>
@@ -442,22 +480,33 @@ void visitFields(Archive& archive, Access<Archive, TrackingStatistics>& value) {
 }
 
 template <class Archive>
-void visitFields(Archive& archive, Access<Archive, ResidualStatistics>& value) {
-  auto& [average, peak, rms] = value;
-  archive(average, peak, rms);
-}
-
-template <class Archive>
 void visitFields(Archive& archive, Access<Archive, RraCounters>& value) {
   auto& [windows, steps, rejected_steps, bounded_windows] = value;
   archive(windows, steps, rejected_steps, bounded_windows);
 }
 
 template <class Archive>
+void visitFields(Archive& archive, Access<Archive, CoordinateDeviation>& value) {
+  auto& [coordinate, translation, rms, peak, share] = value;
+  archive(coordinate, translation, rms, peak, share);
+}
+
+template <class Archive>
+void visitFields(Archive& archive, Access<Archive, WeightChange>& value) {
+  auto& [coordinate, before, after, reason] = value;
+  archive(coordinate, before, after, reason);
+}
+
+template <class Archive>
 void visitFields(Archive& archive, Access<Archive, RraPassResult>& value) {
   auto& [used,
+         from_pass,
+         weight_changes,
+         merit,
+         decision,
          adjustment,
          tracking,
+         deviations,
          residuals,
          counters,
          coordinates,
@@ -467,8 +516,13 @@ void visitFields(Archive& archive, Access<Archive, RraPassResult>& value) {
          tracking_errors,
          adjusted_model] = value;
   archive(used,
+          from_pass,
+          weight_changes,
+          merit,
+          decision,
           adjustment,
           tracking,
+          deviations,
           residuals,
           counters,
           coordinates,
@@ -481,8 +535,8 @@ void visitFields(Archive& archive, Access<Archive, RraPassResult>& value) {
 
 template <class Archive>
 void visitFields(Archive& archive, Access<Archive, RraResult>& value) {
-  auto& [passes, converged, options] = value;
-  archive(passes, converged, options);
+  auto& [passes, converged, options, kept, mass_steps, warnings] = value;
+  archive(passes, converged, options, kept, mass_steps, warnings);
 }
 
 template <class Archive>

@@ -10,6 +10,7 @@
 #include "core/math/events.h"
 #include "core/pipeline/job.h"
 #include "core/pipeline/job_emg.h"
+#include "core/pipeline/rra_audit.h"
 
 namespace gaitmill {
 
@@ -137,9 +138,10 @@ void addIk(const Job& job, StageOutcome& outcome) {
 
 void addRra(const Job& job, StageOutcome& outcome) {
   outcome.tables["kinematics"] = job.motion;
-  outcome.tables["residuals"] = pickResiduals(job.rra->passes.back().actuator_forces);
-  outcome.tables["tracking_errors"] = job.rra->passes.back().tracking_errors;
+  outcome.tables["residuals"] = pickResiduals(job.rra->keptPass().actuator_forces);
+  outcome.tables["tracking_errors"] = job.rra->keptPass().tracking_errors;
   outcome.files["rra.mot"] = writeMotion(job.motion, job.scaled);
+  outcome.files["rra_audit.json"] = auditRra(*job.rra).dump(2) + "\n";
   outcome.files["adjusted_model.osim"] = writeOsim(job.adjusted);
 }
 

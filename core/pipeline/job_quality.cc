@@ -23,12 +23,15 @@ std::vector<std::string> pickNames(const std::vector<ActuatorSpec>& specs, bool 
   return names;
 }
 
-/// The pass whose motion inverse dynamics analyses; by default the last.
+/// The pass whose motion inverse dynamics analyses; by default the one that is kept.
 const RraPassResult& findReportedPass(const Job& job) {
   const auto count = static_cast<int>(job.rra->passes.size());
   const int asked = job.settings.id_pass;
-  const int pass = asked >= 1 && asked <= count ? asked : count;
-  return job.rra->passes[static_cast<std::size_t>(pass - 1)];
+  if (asked < 1 || asked > count) {
+    return job.rra->keptPass();
+  }
+  const RraPassResult& pass = job.rra->passes[static_cast<std::size_t>(asked - 1)];
+  return pass.tracking_errors.rowCount() > 0 ? pass : job.rra->keptPass();
 }
 
 std::vector<MomentComparison> compareAllMoments(const Job& job) {
@@ -95,7 +98,7 @@ void addMotion(const Job& job, JobQuality& quality) {
     quality.markers = calcMarkerStatistics(job.ik->marker_errors, job.ik->weights);
   }
   if (job.rra) {
-    const TimeSeries& forces = job.rra->passes.back().actuator_forces;
+    const TimeSeries& forces = job.rra->keptPass().actuator_forces;
     quality.rra_tracking = calcTrackingError(findReportedPass(job).tracking_errors);
     quality.rra_residuals =
         calcActuatorStatistics(forces, pickNames(job.rra->options.actuators, true));

@@ -106,6 +106,7 @@ std::vector<TrackingTask> makeTasks(const CoordinateValues& weights, const Model
 RraOptions makeRraOptions(const Job& job) {
   const RraSettings& settings = job.settings.rra;
   RraOptions options;
+  options.strategy = settings.strategy;
   options.lowpass_cutoff = settings.lowpass_cutoff;
   options.actuators = makeActuators(settings.actuators, job.scaled);
   options.adjusted_body = settings.adjusted_body;
@@ -127,6 +128,7 @@ void runRra(Job& job) {
                      job.reaction,
                      makeRraOptions(job),
                      makeProgress(Stage::kRra, job));
+  takeWarnings("rra", job.rra->warnings, job);
 }
 
 /// Strength belongs behind residual reduction, which settles the mass (spec/scale.md 5). A model
@@ -150,7 +152,8 @@ const TimeSeries& findAnalysedMotion(const Job& job) {
   if (!job.rra || pass < 1 || pass > static_cast<int>(job.rra->passes.size())) {
     return job.motion;
   }
-  return job.rra->passes[static_cast<std::size_t>(pass - 1)].coordinates;
+  const TimeSeries& coordinates = job.rra->passes[static_cast<std::size_t>(pass - 1)].coordinates;
+  return coordinates.rowCount() > 0 ? coordinates : job.motion;
 }
 
 void runId(Job& job) {
@@ -268,8 +271,8 @@ void takeOver(Stage stage, Job& job) {
     job.measured_coordinates = job.ik->coordinates;
     job.motion = job.measured_coordinates;
   } else if (stage == Stage::kRra) {
-    job.adjusted = job.rra->passes.back().adjusted_model;
-    job.motion = job.rra->passes.back().coordinates;
+    job.adjusted = job.rra->keptPass().adjusted_model;
+    job.motion = job.rra->keptPass().coordinates;
   }
   if (settlesModel(stage, job.settings)) {
     adjustMuscles(job);

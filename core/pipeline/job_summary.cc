@@ -4,10 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/analysis/tracking_error.h"
 #include "core/pipeline/job.h"
 #include "core/pipeline/job_emg.h"
 #include "core/pipeline/quality_json.h"
+#include "core/pipeline/rra_audit.h"
 
 namespace gaitmill {
 
@@ -60,28 +60,6 @@ Json summarizeScale(const ScaleResult& scale) {
   return {{"factors", factors}, {"mass_kg", toJsonNumber(scale.mass)}, {"placements", placements}};
 }
 
-Json summarizeResiduals(const ResidualSum& sum) {
-  return {{"force_n", {sum.force.x(), sum.force.y(), sum.force.z()}},
-          {"moment_nm", {sum.moment.x(), sum.moment.y(), sum.moment.z()}}};
-}
-
-Json summarizeRra(const RraResult& rra) {
-  Json passes = Json::array();
-  for (const RraPassResult& pass : rra.passes) {
-    passes.push_back(
-        {{"mass_before_kg", toJsonNumber(pass.adjustment.mass_before)},
-         {"mass_change_kg", toJsonNumber(pass.adjustment.mass_change)},
-         {"center_shift_x_m", toJsonNumber(pass.adjustment.shift_x)},
-         {"center_shift_z_m", toJsonNumber(pass.adjustment.shift_z)},
-         {"average_residuals_before", summarizeResiduals(pass.adjustment.average_before)},
-         {"average_residuals_after", summarizeResiduals(pass.adjustment.average_after)},
-         {"peak_residuals", summarizeResiduals(pass.residuals.peak)},
-         {"rms_residuals", summarizeResiduals(pass.residuals.rms)},
-         {"tracking", summarizeTracking(calcTrackingError(pass.tracking_errors))}});
-  }
-  return passes;
-}
-
 Json summarizeSubject(const Job& job) {
   const double mass = job.input->mass > 0 ? job.input->mass : job.adjusted.calcTotalMass();
   return {{"mass_kg", toJsonNumber(mass)},
@@ -129,7 +107,8 @@ std::string makeSummary(const Job& job, const JobQuality& quality) {
     summary["scale"] = summarizeScale(*job.scale);
   }
   if (job.rra) {
-    summary["rra_passes"] = summarizeRra(*job.rra);
+    summary["rra_passes"] = summarizeRraPasses(*job.rra);
+    summary["rra"] = auditRra(*job.rra);
   }
   if (const std::optional<GaitCycle> cycle = findGaitCycle(job)) {
     summary["gait_cycle_s"] = {cycle->start, cycle->end};

@@ -90,6 +90,14 @@ void visitActuators(Fields& fields, ActuatorSetSettings& set) {
 
 template <class Fields>
 void visitRra(Fields& fields, RraSettings& rra) {
+  // Who lists passes wants them as they are, unless something else is said.
+  if (fields.isGiven("passes")) {
+    rra.strategy = RraStrategy::kPasses;
+  }
+  fields.choice("strategy",
+                Choices<RraStrategy>{{"autopilot", RraStrategy::kAutopilot},
+                                     {"passes", RraStrategy::kPasses}},
+                rra.strategy);
   fields.number("lowpass_cutoff_hz", kCutoff, rra.lowpass_cutoff);
   fields.range("time_range_s", rra.range);
   fields.object("actuators", [&](auto& inner) { visitActuators(inner, rra.actuators); });
@@ -102,7 +110,7 @@ void visitRra(Fields& fields, RraSettings& rra) {
     inner.values("weights", pass.weights);
     inner.range("time_range_s", pass.range);
   });
-  if (fields.isGiven("passes")) {
+  if (fields.isGiven("passes") && rra.strategy == RraStrategy::kPasses) {
     rra.max_passes = static_cast<int>(rra.passes.size());
   }
   fields.count("max_passes", {1, kPasses.high}, rra.max_passes);

@@ -59,6 +59,7 @@ struct ForceSettings {
 };
 
 struct RraSettings {
+  RraStrategy strategy = RraStrategy::kAutopilot;
   std::optional<double> lowpass_cutoff = 6;  ///< [Hz] of the coordinates; none = unfiltered
   TimeRange range;
   ActuatorSetSettings actuators = makeTrackingActuators();
@@ -70,7 +71,7 @@ struct RraSettings {
     std::optional<TimeRange> range;  ///< replaces the common one
   };
   std::vector<Pass> passes = {{makeTrackingWeights(), {}}};
-  int max_passes = 3;               ///< where passes are listed: as many, unless stated
+  int max_passes = 6;               ///< where passes are listed: as many, unless stated
   double mass_tolerance = 0.05;     ///< [kg] stop when a pass asks for less
   double center_tolerance = 0.001;  ///< [m]
 };

@@ -137,7 +137,9 @@ Html renderPasses(const Json& summary) {
       {"Largest rotation from the measured motion, \u00b0", {"tracking", "max_deg"}},
       {"Largest RMS rotation, \u00b0", {"tracking", "max_rms_deg"}},
       {"Largest translation, cm", {"tracking", "max_cm"}},
-      {"Largest RMS translation, cm", {"tracking", "max_rms_cm"}}};
+      {"Largest RMS translation, cm", {"tracking", "max_rms_cm"}},
+      {"Sum of what exceeds the limits", {"merit"}},
+      {"Weights changed before", {"weights_changed"}}};
   const Json& passes = findMember(summary, {"rra_passes"});
   if (passes.empty()) {
     return {};

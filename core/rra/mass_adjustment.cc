@@ -65,19 +65,29 @@ TimeSeries calcDesiredResiduals(const ModelSpec& spec,
   return residuals;
 }
 
+BodySpec& findAdjustedBody(const RraOptions& options, ModelSpec& spec) {
+  const int index = spec.findBody(options.adjusted_body);
+  require(
+      index >= 0,
+      ErrorCode::kModelReference,
+      "the model has no body '" + options.adjusted_body + "' whose mass center could be shifted",
+      {"", 0, 0, "adjusted_body"});
+  return spec.bodies[static_cast<std::size_t>(index)];
+}
+
 MassAdjustment shiftMassCenter(const ReferenceMotion& motion,
                                const ExternalLoads& loads,
                                const RraOptions& options,
                                const RraPassOptions& pass,
                                ModelSpec& spec,
                                const Progress& progress) {
-  const auto average = [&] {
+  const auto analyze = [&] {
     return calcResidualStatistics(
-               calcDesiredResiduals(spec, motion, loads, options, pass, progress))
-        .average;
+        calcDesiredResiduals(spec, motion, loads, options, pass, progress));
   };
   MassAdjustment adjustment;
-  adjustment.average_before = average();
+  adjustment.desired = analyze();
+  adjustment.average_before = adjustment.desired.average;
   adjustment.average_after = adjustment.average_before;
   adjustment.mass_before = spec.calcTotalMass();
   adjustment.mass_after = adjustment.mass_before;
@@ -86,13 +96,7 @@ MassAdjustment shiftMassCenter(const ReferenceMotion& motion,
   adjustment.mass_change = adjustment.average_before.force.y() / gravity;
   if (!options.adjust_mass_center) return adjustment;
 
-  const int index = spec.findBody(options.adjusted_body);
-  require(
-      index >= 0,
-      ErrorCode::kModelReference,
-      "the model has no body '" + options.adjusted_body + "' whose mass center could be shifted",
-      {"", 0, 0, "adjusted_body"});
-  BodySpec& body = spec.bodies[static_cast<std::size_t>(index)];
+  BodySpec& body = findAdjustedBody(options, spec);
   const double weight = body.mass * std::abs(gravity);
   const double wanted_x = adjustment.average_before.moment.z() / weight;
   const double wanted_z = -adjustment.average_before.moment.x() / weight;
@@ -102,7 +106,8 @@ MassAdjustment shiftMassCenter(const ReferenceMotion& motion,
   adjustment.shift_limited = adjustment.shift_x != wanted_x || adjustment.shift_z != wanted_z;
   body.mass_center.x() -= adjustment.shift_x;
   body.mass_center.z() -= adjustment.shift_z;
-  adjustment.average_after = average();
+  adjustment.desired = analyze();
+  adjustment.average_after = adjustment.desired.average;
   return adjustment;
 }
 

@@ -21,6 +21,9 @@ TimeSeries calcDesiredResiduals(const ModelSpec& spec,
                                 const RraPassOptions& pass,
                                 const Progress& progress = {});
 
+/// The body whose mass center may move. @throws Error kModelReference
+BodySpec& findAdjustedBody(const RraOptions& options, ModelSpec& spec);
+
 /// Mass-center shift and mass change that would bring the average moments about x and z and the
 /// average vertical force to zero, as if the adjusted body were upright:
 ///   dx = Mz / W,  dz = -Mx / W,  W = m_body g;   dm = -Fy / g

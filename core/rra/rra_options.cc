@@ -33,6 +33,19 @@ void RraOptions::validate() const {
                  "low-pass cutoff must be above 0 Hz");
   requireSetting(padding_rows >= 0, "padding_rows", "the number of padded rows is negative");
   requireSetting(max_mass_center_shift >= 0, "max_mass_center_shift_m", "the limit is negative");
+  requireSetting(max_mass_change >= 0 && max_mass_change < 1,
+                 "max_mass_change",
+                 "the largest mass change must be a share from 0 to below 1");
+  for (const double limit : {limits.rotation_rms,
+                             limits.rotation_peak,
+                             limits.translation_rms,
+                             limits.translation_peak,
+                             limits.force_rms,
+                             limits.force_peak,
+                             limits.moment_rms,
+                             limits.moment_peak}) {
+    requireSetting(limit > 0, "limits", "a limit of deviations or residuals must be above 0");
+  }
   requireSetting(window > 0, "window_s", "the control window must be above 0 s");
   requireSetting(
       integration_tolerance > 0, "integration_tolerance", "the tolerance must be above 0");

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/units.h"
 #include "core/data/model_spec.h"
 
 namespace gaitmill {
@@ -23,9 +24,33 @@ struct RraPassOptions {
   std::vector<TrackingTask> tasks;
 };
 
+/// What a pass should hold: the acceptable column of spec/rra.md 6. Of every coordinate, and of
+/// every component of the residuals.
+struct RraLimits {
+  double rotation_rms = 2 * kRadiansPerDegree;   ///< [rad]
+  double rotation_peak = 5 * kRadiansPerDegree;  ///< [rad]
+  double translation_rms = 0.02;                 ///< [m]
+  double translation_peak = 0.05;                ///< [m]
+  double force_rms = 15;                         ///< [N]
+  double force_peak = 25;                        ///< [N] or the share below, whichever is larger
+  double force_peak_share = 0.05;  ///< of the largest vertical ground reaction (Hicks et al. 2015)
+  double moment_rms = 50;          ///< [N.m]
+  double moment_peak = 75;         ///< [N.m]
+};
+
+enum class RraStrategy {
+  kPasses,     ///< as listed: each shifts the mass center, simulates, changes the mass
+  kAutopilot,  ///< mass and mass center first, then weights from pass to pass (rra_autopilot.h)
+};
+
 /// Residual reduction (spec/rra.md).
 struct RraOptions {
-  /// In order; the last one is repeated if there are more passes than entries.
+  RraStrategy strategy = RraStrategy::kPasses;
+  RraLimits limits;
+  /// Share of the mass by which the autopilot may change it. More has another cause than the mass.
+  double max_mass_change = 0.1;
+  /// In order; the last one is repeated if there are more passes than entries. The autopilot starts
+  /// from the first.
   std::vector<RraPassOptions> passes;
   /// Passes in all; 0 = as many as `passes` has.
   int max_passes = 0;
@@ -44,7 +69,8 @@ struct RraOptions {
   std::vector<ActuatorSpec> actuators;
 
   std::string adjusted_body = "torso";  ///< whose mass center is shifted
-  double max_mass_center_shift = 0.1;   ///< [m] along x and z each
+  double max_mass_center_shift =
+      0.1;  ///< [m] along x and z each, per pass; of the autopilot in all
   bool adjust_mass_center = true;
   bool adjust_mass = true;
   /// Inertias keep their values when masses change: the published procedure.

@@ -11,7 +11,8 @@ namespace gaitmill {
 /// Residual reduction after Delp et al. (2007), IEEE TBME 54:1940, as spec/rra.md describes
 /// OpenSim's. Each pass shifts the mass center of one body, simulates the model under torque
 /// actuators that follow the desired motion, and changes the mass; the next pass follows the same
-/// desired motion with the adjusted model. Muscles are carried along unused.
+/// desired motion with the adjusted model. Muscles are carried along unused. Under the strategy
+/// "autopilot" weights are found, see core/rra/rra_autopilot.h.
 ///
 /// @param model        scaled model
 /// @param coordinates  measured motion under plain coordinate names [rad|m]

@@ -225,6 +225,24 @@ TEST(Settings, ShippedDocumentsAreValidForTheOwnModel) {
   }
 }
 
+TEST(Settings, AutopilotUnlessPassesAreListed) {
+  EXPECT_EQ(readText("{}").rra.strategy, RraStrategy::kAutopilot);
+  EXPECT_EQ(readText("{}").rra.max_passes, 6);
+  const char* const listed = R"({"rra": {"passes": [{"weights": {"pelvis_tx": 1}}, {}]}})";
+  EXPECT_EQ(readText(listed).rra.strategy, RraStrategy::kPasses);
+  EXPECT_EQ(readText(listed).rra.max_passes, 2);
+  const RraSettings start =
+      readText(R"({"rra": {"strategy": "autopilot", "passes": [{"weights": {"pelvis_tx": 1}}]}})")
+          .rra;
+  EXPECT_EQ(start.strategy, RraStrategy::kAutopilot);
+  EXPECT_EQ(start.passes[0].weights.at("pelvis_tx"), 1);
+  EXPECT_EQ(start.max_passes, 6);
+  for (const char* name : {"paper_walk", "paper_run"}) {
+    const std::string path = "models/settings/" + std::string(name) + ".json";
+    EXPECT_EQ(readSettings({path, readFile(path)}).rra.strategy, RraStrategy::kPasses) << name;
+  }
+}
+
 TEST(Settings, PaperTrialsCarryTheirPublishedFigures) {
   const PipelineSettings walk = readSettings({"", readFile("models/settings/paper_walk.json")});
   EXPECT_EQ(walk.rra.passes.size(), 2U);
