@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/where.h"
+#include "core/pipeline/model_coordinates.h"
 #include "core/pipeline/settings.h"
 
 namespace gaitmill {
@@ -18,6 +19,8 @@ ActuatorSetSettings makeTrackingActuators() {
   set.residuals->control_limit = 1e9;
   set.name_suffix = "";
   set.control_limit = 1;
+  set.others = OtherCoordinates::kAll;
+  set.other_optimal_force = 500;
   // As strong as the published ones (spec/rra.md 5): they never meet their limit in gait.
   for (const char* leg_or_trunk : {"hip_flexion",
                                    "hip_adduction",
@@ -43,6 +46,7 @@ ActuatorSetSettings makeReserveActuators() {
                      {"hip_rotation", 10},
                      {"knee_angle", 2.5},
                      {"ankle_angle", 2.5}};
+  set.others = OtherCoordinates::kMuscles;
   return set;
 }
 
@@ -103,20 +107,61 @@ std::map<std::string, double> expandSides(const CoordinateValues& values, const 
 
 namespace {
 
+/// A model may be without residuals and then has every joint tracked alone.
+constexpr const char* kUsualBase = "pelvis";
+
+double findListed(const CoordinateValues& listed, const std::string& coordinate, double usual) {
+  const auto own = listed.find(coordinate);
+  if (own != listed.end()) {
+    return own->second;
+  }
+  const std::size_t length = coordinate.size();
+  const std::string suffix = length > 2 ? coordinate.substr(length - 2) : "";
+  const auto both = listed.find(coordinate.substr(0, length - suffix.size()));
+  return (suffix == "_r" || suffix == "_l") && both != listed.end() ? both->second : usual;
+}
+
+/// Optimal forces by coordinate.
+std::map<std::string, double> fitForces(const ActuatorSetSettings& settings,
+                                        const std::string& base,
+                                        const ModelSpec& model) {
+  if (settings.others == OtherCoordinates::kNone) {
+    return expandSides(settings.coordinates, model);
+  }
+  std::map<std::string, double> forces;
+  for (const ModelCoordinate& coordinate : listFreeCoordinates(model, base)) {
+    const bool reached = settings.others == OtherCoordinates::kAll ||
+                         (coordinate.has_muscle && !coordinate.has_actuator);
+    const double usual = reached && !coordinate.at_root ? settings.other_optimal_force : 0;
+    forces[coordinate.name] = findListed(settings.coordinates, coordinate.name, usual);
+  }
+  return forces;
+}
+
+/// Of coordinates that no list names: as the published weights of joints of their kind.
+double findUsualWeight(const ModelCoordinate& coordinate) {
+  constexpr double kBase = 200;
+  constexpr double kTrunk = 50;
+  constexpr double kLimb = 20;
+  constexpr double kMuchMass = 0.2;  // of the body's: a trunk, not an arm
+  return coordinate.at_root ? kBase : coordinate.moved_share >= kMuchMass ? kTrunk : kLimb;
+}
+
 ActuatorSpec makeResidual(const ActuatorSetSettings::Residuals& residuals,
+                          const std::string& base,
                           const ModelSpec& model,
                           int axis,
                           ActuatorSpec::Kind kind) {
   const bool force = kind == ActuatorSpec::Kind::kPoint;
-  const int body = model.findBody(residuals.body);
+  const int body = model.findBody(base);
   require(body >= 0,
           ErrorCode::kModelReference,
-          "the residuals act on a body '" + residuals.body + "' that the model does not have",
-          {{}, 0, 0, residuals.body});
+          "the residuals act on a body '" + base + "' that the model does not have",
+          {{}, 0, 0, base});
   ActuatorSpec actuator;
   actuator.name = std::string(force ? "F" : "M") + "XYZ"[axis];
   actuator.kind = kind;
-  actuator.body = residuals.body;
+  actuator.body = base;
   actuator.point =
       residuals.point.value_or(model.bodies[static_cast<std::size_t>(body)].mass_center);
   actuator.direction = Eigen::Vector3d::Unit(axis);
@@ -127,19 +172,57 @@ ActuatorSpec makeResidual(const ActuatorSetSettings::Residuals& residuals,
   return actuator;
 }
 
+/// Whether the base can move along (about) an axis. A base that is held in part, as in planar
+/// models or single legs on a fixed pelvis, needs no residual there.
+bool canMove(const std::vector<ModelCoordinate>& coordinates, bool translation, int axis) {
+  return std::any_of(coordinates.begin(), coordinates.end(), [&](const auto& coordinate) {
+    return coordinate.at_root && coordinate.translation == translation &&
+           coordinate.root_axis == axis;
+  });
+}
+
+void addResiduals(const ActuatorSetSettings& settings,
+                  const std::string& base,
+                  const ModelSpec& model,
+                  std::vector<ActuatorSpec>& actuators) {
+  const bool strict = settings.others == OtherCoordinates::kNone;
+  const std::vector<ModelCoordinate> coordinates = listFreeCoordinates(model, base);
+  for (const auto kind : {ActuatorSpec::Kind::kPoint, ActuatorSpec::Kind::kTorque}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (strict || canMove(coordinates, kind == ActuatorSpec::Kind::kPoint, axis)) {
+        actuators.push_back(makeResidual(*settings.residuals, base, model, axis, kind));
+      }
+    }
+  }
+}
+
 }  // namespace
+
+std::map<std::string, double> fitWeights(const RraSettings::Pass& pass, const ModelSpec& model) {
+  if (pass.others == OtherCoordinates::kNone) {
+    return expandSides(pass.weights, model);
+  }
+  std::map<std::string, double> weights;
+  for (const ModelCoordinate& coordinate :
+       listFreeCoordinates(model, findBase(kUsualBase, model))) {
+    const bool reached = pass.others == OtherCoordinates::kAll || coordinate.has_muscle;
+    const double usual = reached ? findUsualWeight(coordinate) : 0;
+    weights[coordinate.name] = findListed(pass.weights, coordinate.name, usual);
+  }
+  return weights;
+}
 
 std::vector<ActuatorSpec> makeActuators(const ActuatorSetSettings& settings,
                                         const ModelSpec& model) {
   std::vector<ActuatorSpec> actuators;
-  for (int axis = 0; settings.residuals && axis < 3; ++axis) {
-    actuators.push_back(makeResidual(*settings.residuals, model, axis, ActuatorSpec::Kind::kPoint));
+  std::string base = settings.residuals ? settings.residuals->body : kUsualBase;
+  if (base == kUsualBase) {
+    base = findBase(base, model);
   }
-  for (int axis = 0; settings.residuals && axis < 3; ++axis) {
-    actuators.push_back(
-        makeResidual(*settings.residuals, model, axis, ActuatorSpec::Kind::kTorque));
+  if (settings.residuals) {
+    addResiduals(settings, base, model, actuators);
   }
-  const std::map<std::string, double> optimal = expandSides(settings.coordinates, model);
+  const std::map<std::string, double> optimal = fitForces(settings, base, model);
   for (const JointSpec& joint : model.joints) {
     for (const CoordinateSpec& coordinate : joint.coordinates) {
       const auto found = optimal.find(coordinate.name);

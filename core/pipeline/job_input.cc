@@ -14,6 +14,7 @@
 #include "core/pipeline/job.h"
 #include "core/pipeline/job_emg.h"
 #include "core/pipeline/marker_set_json.h"
+#include "core/pipeline/model_coordinates.h"
 
 namespace gaitmill {
 
@@ -97,6 +98,18 @@ void openForces(Job& job) {
   }
 }
 
+/// Static optimization and computed muscle control need something that moves every joint.
+void completeModel(ModelSpec& model, Job& job) {
+  std::string names;
+  for (const std::string& coordinate : addTorqueActuators(model)) {
+    names += (names.empty() ? "" : ", ") + coordinate;
+  }
+  if (!names.empty()) {
+    job.warn("model: neither muscles nor actuators move " + names +
+             "; torque actuators were added there");
+  }
+}
+
 void openModels(Job& job) {
   const std::string own = job.models_folder + "/rajagopal2016/rajagopal2016.osim";
   const bool scales = job.settings.runs(Stage::kScale);
@@ -106,7 +119,10 @@ void openModels(Job& job) {
   }
   if (!scales) {
     job.scaled = openModel(*job.input->model, job);
+    completeModel(job.scaled, job);
     job.adjusted = job.scaled;
+  } else {
+    completeModel(job.generic, job);
   }
 }
 

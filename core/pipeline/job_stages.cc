@@ -10,6 +10,7 @@
 #include "core/cmc/cmc_solver.h"
 #include "core/id/id_solver.h"
 #include "core/ik/ik_solver.h"
+#include "core/math/events.h"
 #include "core/math/natural_spline.h"
 #include "core/math/table_filters.h"
 #include "core/model/external_loads.h"
@@ -18,6 +19,7 @@
 #include "core/model/reference_motion.h"
 #include "core/pipeline/job.h"
 #include "core/pipeline/job_emg.h"
+#include "core/pipeline/model_coordinates.h"
 #include "core/rra/rra_solver.h"
 #include "core/scale/scale_solver.h"
 #include "core/so/so_solver.h"
@@ -92,9 +94,9 @@ TimeRange findCommonRange(const TimeRange& asked,
   return range;
 }
 
-std::vector<TrackingTask> makeTasks(const CoordinateValues& weights, const ModelSpec& model) {
+std::vector<TrackingTask> makeTasks(const RraSettings::Pass& pass, const ModelSpec& model) {
   std::vector<TrackingTask> tasks;
-  for (const auto& [coordinate, weight] : expandSides(weights, model)) {
+  for (const auto& [coordinate, weight] : fitWeights(pass, model)) {
     TrackingTask task;
     task.coordinate = coordinate;
     task.weight = weight;
@@ -103,13 +105,48 @@ std::vector<TrackingTask> makeTasks(const CoordinateValues& weights, const Model
   return tasks;
 }
 
+/// Whether the body leaves the ground: no step of a runner lasts as long as this, and a walker's
+/// steps overlap, so that a plate or two bear him for longer.
+bool isRunning(const GroundReaction& reaction) {
+  constexpr double kLongestRunningStep = 0.45;  // [s]
+  Eigen::VectorXd vertical = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(reaction.time.size()));
+  for (const ExternalForce& force : reaction.forces) {
+    vertical += force.force.row(1).transpose();
+  }
+  double longest = 0;
+  for (const Contact& contact : findContacts(reaction.time, vertical)) {
+    if (contact.has_strike && contact.has_toe_off) {
+      longest = std::max(longest, contact.toe_off - contact.strike);
+    }
+  }
+  return longest > 0 && longest < kLongestRunningStep;
+}
+
+/// Cutoffs of the published trials (spec/rra.md 5): a runner's foot strike is over in 50 ms.
+void setCutoff(const Job& job, RraOptions& options) {
+  constexpr double kWalkingCutoff = 6;   // [Hz]
+  constexpr double kRunningCutoff = 15;  // [Hz]
+  const RraSettings& settings = job.settings.rra;
+  if (!settings.automatic_cutoff) {
+    options.lowpass_cutoff = settings.lowpass_cutoff;
+    options.lowpass_reason = "as the settings state";
+    return;
+  }
+  const bool running = isRunning(job.reaction);
+  options.lowpass_cutoff = running ? kRunningCutoff : kWalkingCutoff;
+  options.lowpass_reason = running ? "running: steps are short and the body leaves the ground"
+                                   : "walking: no flight between steps";
+}
+
 RraOptions makeRraOptions(const Job& job) {
   const RraSettings& settings = job.settings.rra;
   RraOptions options;
   options.strategy = settings.strategy;
-  options.lowpass_cutoff = settings.lowpass_cutoff;
+  setCutoff(job, options);
   options.actuators = makeActuators(settings.actuators, job.scaled);
-  options.adjusted_body = settings.adjusted_body;
+  options.adjusted_body = settings.adjusted_body == RraOptions().adjusted_body
+                              ? findTrunk(settings.adjusted_body, job.scaled)
+                              : settings.adjusted_body;
   options.inertia_scaling = settings.inertia;
   options.max_passes = settings.max_passes;
   options.mass_tolerance = settings.mass_tolerance;
@@ -117,7 +154,7 @@ RraOptions makeRraOptions(const Job& job) {
   for (const RraSettings::Pass& pass : settings.passes) {
     const TimeRange range = findCommonRange(
         pass.range.value_or(settings.range), job.measured_coordinates, job.reaction);
-    options.passes.push_back({range.start, range.end, makeTasks(pass.weights, job.scaled)});
+    options.passes.push_back({range.start, range.end, makeTasks(pass, job.scaled)});
   }
   return options;
 }

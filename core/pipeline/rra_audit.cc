@@ -141,6 +141,7 @@ Json auditRra(const RraResult& rra) {
                 {"limits_hold", rra.keptPass().merit == 0},
                 {"lowpass_cutoff_hz",
                  rra.options.lowpass_cutoff ? Json(*rra.options.lowpass_cutoff) : Json(nullptr)},
+                {"lowpass_reason", rra.options.lowpass_reason},
                 {"adjusted_body", rra.options.adjusted_body},
                 {"limits", auditLimits(rra.options.limits)},
                 {"mass_steps", Json::array()},

@@ -74,6 +74,19 @@ void visitIk(Fields& fields, PipelineSettings& settings) {
 }
 
 template <class Fields>
+void visitOthers(Fields& fields, const char* listed, OtherCoordinates& others) {
+  // Who lists coordinates means these.
+  if (fields.isGiven(listed)) {
+    others = OtherCoordinates::kNone;
+  }
+  fields.choice("other_coordinates",
+                Choices<OtherCoordinates>{{"none", OtherCoordinates::kNone},
+                                          {"muscles", OtherCoordinates::kMuscles},
+                                          {"all", OtherCoordinates::kAll}},
+                others);
+}
+
+template <class Fields>
 void visitActuators(Fields& fields, ActuatorSetSettings& set) {
   using Residuals = ActuatorSetSettings::Residuals;
   fields.object("residuals", set.residuals, [](auto& inner, Residuals& residuals) {
@@ -84,6 +97,8 @@ void visitActuators(Fields& fields, ActuatorSetSettings& set) {
     inner.number("control_limit", kControlLimit, residuals.control_limit);
   });
   fields.values("coordinates", set.coordinates);
+  visitOthers(fields, "coordinates", set.others);
+  fields.number("other_optimal_force", kPositiveForce, set.other_optimal_force);
   fields.text("name_suffix", set.name_suffix);
   fields.number("control_limit", kControlLimit, set.control_limit);
 }
@@ -98,7 +113,7 @@ void visitRra(Fields& fields, RraSettings& rra) {
                 Choices<RraStrategy>{{"autopilot", RraStrategy::kAutopilot},
                                      {"passes", RraStrategy::kPasses}},
                 rra.strategy);
-  fields.number("lowpass_cutoff_hz", kCutoff, rra.lowpass_cutoff);
+  fields.numberOrAuto("lowpass_cutoff_hz", kCutoff, rra.lowpass_cutoff, rra.automatic_cutoff);
   fields.range("time_range_s", rra.range);
   fields.object("actuators", [&](auto& inner) { visitActuators(inner, rra.actuators); });
   fields.text("adjusted_body", rra.adjusted_body);
@@ -108,6 +123,7 @@ void visitRra(Fields& fields, RraSettings& rra) {
                 rra.inertia);
   fields.list("passes", rra.passes, [](auto& inner, RraSettings::Pass& pass) {
     inner.values("weights", pass.weights);
+    visitOthers(inner, "weights", pass.others);
     inner.range("time_range_s", pass.range);
   });
   if (fields.isGiven("passes") && rra.strategy == RraStrategy::kPasses) {

@@ -27,6 +27,13 @@ namespace gaitmill {
 /// stands for both sides: "hip_flexion" for hip_flexion_r and hip_flexion_l.
 using CoordinateValues = std::map<std::string, double>;
 
+/// Free coordinates that a list of coordinates does not name.
+enum class OtherCoordinates {
+  kNone,     ///< get nothing, and a listed name that the model lacks is an error
+  kMuscles,  ///< get a usual value where muscles cross the joint; names it lacks are skipped
+  kAll,      ///< get a usual value unless they are what residuals act on; the same
+};
+
 /// Ideal actuators beside the model's own muscles and torque actuators. Controls count in units of
 /// optimal force.
 struct ActuatorSetSettings {
@@ -40,6 +47,8 @@ struct ActuatorSetSettings {
   };
   std::optional<Residuals> residuals;
   CoordinateValues coordinates;  ///< optimal force by coordinate [N.m|N]
+  OtherCoordinates others = OtherCoordinates::kNone;
+  double other_optimal_force = 2.5;  ///< of the others [N.m|N]
   std::string name_suffix = "_reserve";
   double control_limit = 1000;
 };
@@ -60,6 +69,7 @@ struct ForceSettings {
 
 struct RraSettings {
   RraStrategy strategy = RraStrategy::kAutopilot;
+  bool automatic_cutoff = true;              ///< by the kind of gait; else as stated next
   std::optional<double> lowpass_cutoff = 6;  ///< [Hz] of the coordinates; none = unfiltered
   TimeRange range;
   ActuatorSetSettings actuators = makeTrackingActuators();
@@ -68,9 +78,10 @@ struct RraSettings {
   /// What a pass tracks with. Passes beyond the list repeat its last entry.
   struct Pass {
     CoordinateValues weights;
+    OtherCoordinates others = OtherCoordinates::kNone;
     std::optional<TimeRange> range;  ///< replaces the common one
   };
-  std::vector<Pass> passes = {{makeTrackingWeights(), {}}};
+  std::vector<Pass> passes = {{makeTrackingWeights(), OtherCoordinates::kAll, {}}};
   int max_passes = 6;               ///< where passes are listed: as many, unless stated
   double mass_tolerance = 0.05;     ///< [kg] stop when a pass asks for less
   double center_tolerance = 0.001;  ///< [m]
@@ -144,5 +155,9 @@ std::vector<ActuatorSpec> makeActuators(const ActuatorSetSettings& settings,
 
 /// Expands names that stand for both sides. @throws Error kInputCoordinates naming the nearest name
 std::map<std::string, double> expandSides(const CoordinateValues& values, const ModelSpec& model);
+
+/// Tracking weights on a model. Coordinates that are not listed weigh by their joint: the base
+/// most, then what carries much of the body's mass.
+std::map<std::string, double> fitWeights(const RraSettings::Pass& pass, const ModelSpec& model);
 
 }  // namespace gaitmill

@@ -58,6 +58,19 @@ void SettingsReader::number(const std::string& name, Limits limits, std::optiona
   }
 }
 
+void SettingsReader::numberOrAuto(const std::string& name,
+                                  Limits limits,
+                                  std::optional<double>& value,
+                                  bool& automatic) {
+  if (fields_.has(name) && fields_.raw(name).is_string()) {
+    findWord(name, {"auto"});
+    automatic = true;
+    return;
+  }
+  automatic = automatic && !fields_.contains(name);
+  number(name, limits, value);
+}
+
 void SettingsReader::count(const std::string& name, Limits limits, int& value) {
   double found = value;
   number(name, limits, found);

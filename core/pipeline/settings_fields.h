@@ -42,6 +42,11 @@ class SettingsReader {
   void text(const std::string& name, std::string& value);
   void number(const std::string& name, Limits limits, double& value);
   void number(const std::string& name, Limits limits, std::optional<double>& value);
+  /// A number, null for none, or the word "auto".
+  void numberOrAuto(const std::string& name,
+                    Limits limits,
+                    std::optional<double>& value,
+                    bool& automatic);
   void count(const std::string& name, Limits limits, int& value);
   void flag(const std::string& name, bool& value);
   void point(const std::string& name, std::optional<Eigen::Vector3d>& value);
@@ -130,6 +135,15 @@ class SettingsWriter {
   void number(const std::string& name, Limits, double value) { json_[name] = value; }
   void number(const std::string& name, Limits, const std::optional<double>& value) {
     json_[name] = value ? Json(*value) : Json(nullptr);
+  }
+  void numberOrAuto(const std::string& name,
+                    Limits limits,
+                    const std::optional<double>& value,
+                    bool automatic) {
+    number(name, limits, value);
+    if (automatic) {
+      json_[name] = "auto";
+    }
   }
   void count(const std::string& name, Limits, int value) { json_[name] = value; }
   void flag(const std::string& name, bool value) { json_[name] = value; }

@@ -108,6 +108,13 @@ MassAdjustment Fit::step(const ResidualStatistics& before) {
   const Change unit(kMassProbe * adjustment.mass_before, kCenterProbe, kCenterProbe);
   const Eigen::Matrix3d slopes = calcSlopes(averages) * unit.asDiagonal();
   Eigen::VectorXd scaled(3);
+  if (slopes.isZero(0)) {
+    // A base that is held bears whatever the motion needs: forces tell nothing about the mass.
+    adjustment.mass_after = adjustment.mass_before;
+    adjustment.desired = before;
+    adjustment.average_after = before.average;
+    return adjustment;
+  }
   const Eigen::VectorXd lower = lower_.cwiseQuotient(unit), upper = upper_.cwiseQuotient(unit);
   BoundedLeastSquares(3, 3).solve(slopes, -averages, lower, upper, scaled);
   const Change change = scaled.cwiseProduct(unit);

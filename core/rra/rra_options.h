@@ -61,7 +61,8 @@ struct RraOptions {
 
   /// Low-pass of the desired motion [Hz], 101 taps (spec/signal.md 5.2). None = only padded.
   std::optional<double> lowpass_cutoff = 6;
-  int padding_rows = 60;  ///< reflected rows at each end before the filter
+  std::string lowpass_reason;  ///< why this one, for the audit
+  int padding_rows = 60;       ///< reflected rows at each end before the filter
 
   /// Residual forces and torques, and one actuator per joint coordinate: as many as free
   /// coordinates. Forces at points are residual forces, torques against the ground residual

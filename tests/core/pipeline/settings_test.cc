@@ -220,9 +220,94 @@ TEST(Settings, ShippedDocumentsAreValidForTheOwnModel) {
     // spec/cmc.md 1
     EXPECT_EQ(makeActuators(settings.cmc_actuators, model).size(), 16U) << name;
     for (const RraSettings::Pass& pass : settings.rra.passes) {
-      EXPECT_EQ(expandSides(pass.weights, model).size(), 29U) << name;
+      EXPECT_EQ(fitWeights(pass, model).size(), 29U) << name;
     }
   }
+}
+
+/// Own model with coordinates renamed, unlocked or arms cut off: what other models are like.
+ModelSpec renameCoordinate(ModelSpec model, const std::string& from, const std::string& to) {
+  for (JointSpec& joint : model.joints) {
+    for (CoordinateSpec& coordinate : joint.coordinates) {
+      if (coordinate.name == from) coordinate.name = to;
+    }
+    for (TransformAxisSpec& axis : joint.axes) {
+      if (axis.coordinate == from) axis.coordinate = to;
+    }
+  }
+  return model;
+}
+
+ModelSpec unlockFeet(ModelSpec model) {
+  for (JointSpec& joint : model.joints) {
+    for (CoordinateSpec& coordinate : joint.coordinates) {
+      const bool foot = coordinate.name.find("subtalar") == 0 || coordinate.name.find("mtp") == 0;
+      coordinate.locked = coordinate.locked && !foot;
+    }
+  }
+  return model;
+}
+
+TEST(Settings, DefaultsFitModelsWithOtherCoordinates) {
+  const PipelineSettings settings = readText("{}");
+  const ModelSpec feet = unlockFeet(readOwnModel());
+  EXPECT_EQ(makeActuators(settings.rra.actuators, feet).size(), 33U);
+  EXPECT_EQ(fitWeights(settings.rra.passes[0], feet).size(), 33U);
+  EXPECT_EQ(fitWeights(settings.rra.passes[0], feet).at("subtalar_angle_l"), 20);
+  // Muscles cross both joints of the foot.
+  EXPECT_EQ(makeActuators(settings.cmc_actuators, feet).size(), 20U);
+
+  const ModelSpec renamed = renameCoordinate(readOwnModel(), "lumbar_extension", "flex_extension");
+  const std::map<std::string, double> weights = fitWeights(settings.rra.passes[0], renamed);
+  EXPECT_EQ(weights.size(), 29U);
+  EXPECT_EQ(weights.at("flex_extension"), 50);
+  EXPECT_EQ(weights.count("lumbar_extension"), 0U);
+  EXPECT_EQ(makeActuators(settings.rra.actuators, renamed).size(), 29U);
+}
+
+TEST(Settings, ListedCoordinatesStayStrict) {
+  const ModelSpec renamed = renameCoordinate(readOwnModel(), "lumbar_extension", "flex_extension");
+  const PipelineSettings listed = readText(
+      R"({"rra": {"actuators": {"coordinates": {"lumbar_extension": 1000}},
+                  "passes": [{"weights": {"lumbar_extension": 1}}]}})");
+  EXPECT_EQ(listed.rra.actuators.others, OtherCoordinates::kNone);
+  EXPECT_THROW(makeActuators(listed.rra.actuators, renamed), Error);
+  EXPECT_THROW(fitWeights(listed.rra.passes[0], renamed), Error);
+  const PipelineSettings loose = readText(
+      R"({"rra": {"actuators": {"coordinates": {"lumbar_extension": 1000},
+                                "other_coordinates": "all", "other_optimal_force": 300},
+                  "passes": [{"weights": {"pelvis_tx": 1}, "other_coordinates": "all"}]}})");
+  const std::vector<ActuatorSpec> actuators = makeActuators(loose.rra.actuators, renamed);
+  EXPECT_EQ(actuators.size(), 29U);
+  EXPECT_EQ(actuators.back().optimal_force, 300);
+  EXPECT_EQ(fitWeights(loose.rra.passes[0], renamed).at("pelvis_tx"), 1);
+}
+
+TEST(Settings, ResidualsActWhereTheBaseCanMove) {
+  ModelSpec planar = readOwnModel();
+  for (JointSpec& joint : planar.joints) {
+    for (CoordinateSpec& coordinate : joint.coordinates) {
+      coordinate.locked |= coordinate.name == "pelvis_list" ||
+                           coordinate.name == "pelvis_rotation" || coordinate.name == "pelvis_tz";
+    }
+  }
+  std::vector<std::string> names;
+  for (const ActuatorSpec& actuator : makeActuators(readText("{}").rra.actuators, planar)) {
+    if (actuator.kind != ActuatorSpec::Kind::kCoordinate) names.push_back(actuator.name);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"FX", "FY", "MZ"}));
+}
+
+TEST(Settings, CutoffIsAutomaticUnlessStated) {
+  EXPECT_TRUE(readText("{}").rra.automatic_cutoff);
+  EXPECT_TRUE(readText(R"({"rra": {"lowpass_cutoff_hz": "auto"}})").rra.automatic_cutoff);
+  const RraSettings none = readText(R"({"rra": {"lowpass_cutoff_hz": null}})").rra;
+  EXPECT_FALSE(none.automatic_cutoff);
+  EXPECT_FALSE(none.lowpass_cutoff.has_value());
+  const RraSettings stated = readText(R"({"rra": {"lowpass_cutoff_hz": 12}})").rra;
+  EXPECT_FALSE(stated.automatic_cutoff);
+  EXPECT_EQ(stated.lowpass_cutoff.value_or(0), 12);
+  EXPECT_THROW(readText(R"({"rra": {"lowpass_cutoff_hz": "high"}})"), Error);
 }
 
 TEST(Settings, AutopilotUnlessPassesAreListed) {
