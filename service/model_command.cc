@@ -39,6 +39,9 @@ ordered_json makeCounts(const ModelSpec& spec) {
           {"muscles", counts.muscles},
           {"rigid_tendons", counts.rigid_tendons},
           {"wrap_cylinders", counts.wrap_cylinders},
+          {"wrap_spheres", counts.wrap_spheres},
+          {"wrap_ellipsoids", counts.wrap_ellipsoids},
+          {"passive_forces", counts.passive_forces},
           {"actuators", counts.actuators},
           {"markers", counts.markers}};
 }

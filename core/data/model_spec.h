@@ -27,15 +27,22 @@ struct FunctionSpec {
   double scale = 1.0;
 };
 
-/// Cylinder over which muscle paths wrap; axis = local z through `translation`.
-struct WrapCylinderSpec {
-  std::string name;                                    ///< unique in the model
+/// Surface over which muscle paths wrap, centred at `translation` and turned by `rotation`.
+struct WrapObjectSpec {
+  enum class Kind {
+    kCylinder,   ///< `radius` about the local z axis, `length` along it
+    kSphere,     ///< `radius`
+    kEllipsoid,  ///< `semi_axes` along the local axes
+  };
+  std::string name;  ///< unique in the model
+  Kind kind = Kind::kCylinder;
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();  ///< body-fixed x-y-z angles
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
   std::string quadrant =
       "all";  ///< "all", or the half space in which the path must stay: "x", "-y"
   double radius = 1.0;
   double length = 1.0;
+  Eigen::Vector3d semi_axes{0.05, 0.05, 0.05};
   bool active = true;
 };
 
@@ -53,7 +60,7 @@ struct BodySpec {
   Eigen::Vector3d mass_center = Eigen::Vector3d::Zero();
   /// About the mass centre, body axes: xx yy zz xy xz yz [kg m^2].
   std::array<double, 6> inertia = {0, 0, 0, 0, 0, 0};
-  std::vector<WrapCylinderSpec> wrap_cylinders;
+  std::vector<WrapObjectSpec> wrap_objects;
   std::vector<MeshSpec> meshes = {};
 };
 
@@ -131,6 +138,9 @@ struct PathWrapSpec {
   std::string wrap_object;
   int first_point = -1;
   int last_point = -1;
+  /// OpenSim's rule for the plane of a path over an ellipsoid. Carried along only: paths here are
+  /// geodesics.
+  std::string method = "hybrid";
 };
 
 /// Parameters of the four muscle curves (spec/muscle.md 2). The defaults are those of
@@ -236,6 +246,41 @@ struct ActuatorSpec {
   double max_control = 1e300;
 };
 
+/// A force that the model applies by itself, from its motion alone: what ligaments, capsules and
+/// foot pads do. Named after the document's types.
+struct PassiveForceSpec {
+  enum class Kind {
+    kCoordinateLimit,       ///< spring and damper beyond a coordinate's limits
+    kCoordinateSpring,      ///< -stiffness (q - rest_length) - viscosity u on `coordinate`
+    kCoordinateExpression,  ///< expressions[0] of "q" and "qdot" on `coordinate`
+    kBushing,               ///< between two frames, linear in the deflection
+    kFunctionBushing,       ///< minus one function of each component of the deflection
+    kExpressionBushing,     ///< minus expressions of theta_x..z [rad] and delta_x..z [m]
+  };
+  std::string name;
+  Kind kind = Kind::kCoordinateLimit;
+  std::string coordinate;
+  double upper_limit = 0;  ///< [rad|m]
+  double lower_limit = 0;
+  double upper_stiffness = 1;  ///< [N.m/rad|N/m]
+  double lower_stiffness = 1;
+  double damping = 0.001;   ///< beyond the limits [N.m s/rad|N s/m]
+  double transition = 0.1;  ///< way over which stiffness and damping set in [rad|m] > 0
+  double stiffness = 0;     ///< kCoordinateSpring [N.m/rad|N/m]
+  double rest_length = 0;   ///< [rad|m]
+  double viscosity = 0;     ///< [N.m s/rad|N s/m]
+  /// A bushing pulls frame 2 towards frame 1. Deflection = frame 2 in frame 1: body-fixed x-y-z
+  /// angles, then translation.
+  FrameSpec frame1;
+  FrameSpec frame2;
+  Eigen::Vector3d rotational_stiffness = Eigen::Vector3d::Zero();     ///< [N.m/rad]
+  Eigen::Vector3d translational_stiffness = Eigen::Vector3d::Zero();  ///< [N/m]
+  Eigen::Vector3d rotational_damping = Eigen::Vector3d::Zero();       ///< [N.m s/rad]
+  Eigen::Vector3d translational_damping = Eigen::Vector3d::Zero();    ///< [N s/m]
+  std::array<FunctionSpec, 6> functions = {};                         ///< moments, then forces
+  std::array<std::string, 6> expressions = {"0", "0", "0", "0", "0", "0"};
+};
+
 struct MuscleGroupSpec {
   std::string name;
   std::vector<std::string> members;
@@ -247,13 +292,16 @@ struct ModelSpec {
   std::string credits;
   Eigen::Vector3d gravity{0, -9.80665, 0};  ///< [m/s^2]
   std::vector<BodySpec> bodies;
-  std::vector<WrapCylinderSpec> ground_wrap_cylinders;
+  std::vector<WrapObjectSpec> ground_wrap_objects;
   std::vector<JointSpec> joints;
   std::vector<CouplerSpec> couplers;
   std::vector<MarkerSpec> markers;
   std::vector<MuscleSpec> muscles;
   std::vector<ActuatorSpec> actuators;
+  std::vector<PassiveForceSpec> passive_forces;
   std::vector<MuscleGroupSpec> muscle_groups;
+  /// Version of the document read; what is written is 40000, whatever was read.
+  int document_version = 40000;
 
   /// Sum of the body masses [kg].
   double calcTotalMass() const;

@@ -66,7 +66,11 @@ void appendCounts(std::string& text, const ModelSpec& spec) {
           n(counts.coupled_coordinates) + " coupled, " + n(counts.locked_coordinates) +
           " locked)\n";
   text += n(counts.muscles) + " muscles (" + n(counts.rigid_tendons) + " with rigid tendon), " +
-          n(counts.wrap_cylinders) + " wrap cylinders\n";
+          n(counts.wrap_cylinders) + " wrap cylinders";
+  text += counts.wrap_spheres > 0 ? ", " + n(counts.wrap_spheres) + " wrap spheres" : "";
+  text += counts.wrap_ellipsoids > 0 ? ", " + n(counts.wrap_ellipsoids) + " wrap ellipsoids" : "";
+  text += counts.passive_forces > 0 ? ", " + n(counts.passive_forces) + " passive forces" : "";
+  text += "\n";
   text += n(counts.actuators) + " actuators, " + n(counts.markers) + " markers\n";
 }
 
@@ -129,6 +133,22 @@ void appendActuators(std::string& text, const ModelSpec& spec) {
   }
 }
 
+void countWraps(const std::vector<WrapObjectSpec>& wraps, ModelCounts& counts) {
+  for (const WrapObjectSpec& wrap : wraps) {
+    switch (wrap.kind) {
+      case WrapObjectSpec::Kind::kCylinder:
+        ++counts.wrap_cylinders;
+        break;
+      case WrapObjectSpec::Kind::kSphere:
+        ++counts.wrap_spheres;
+        break;
+      case WrapObjectSpec::Kind::kEllipsoid:
+        ++counts.wrap_ellipsoids;
+        break;
+    }
+  }
+}
+
 }  // namespace
 
 ModelCounts countModel(const ModelSpec& spec) {
@@ -138,7 +158,8 @@ ModelCounts countModel(const ModelSpec& spec) {
   counts.muscles = static_cast<int>(spec.muscles.size());
   counts.actuators = static_cast<int>(spec.actuators.size());
   counts.markers = static_cast<int>(spec.markers.size());
-  counts.wrap_cylinders = static_cast<int>(spec.ground_wrap_cylinders.size());
+  counts.passive_forces = static_cast<int>(spec.passive_forces.size());
+  countWraps(spec.ground_wrap_objects, counts);
   for (const JointSpec& joint : spec.joints) {
     counts.coordinates += static_cast<int>(joint.coordinates.size());
     for (const CoordinateSpec& coordinate : joint.coordinates) {
@@ -152,7 +173,7 @@ ModelCounts countModel(const ModelSpec& spec) {
     counts.rigid_tendons += muscle.tendon == TendonKind::kRigid ? 1 : 0;
   }
   for (const BodySpec& body : spec.bodies) {
-    counts.wrap_cylinders += static_cast<int>(body.wrap_cylinders.size());
+    countWraps(body.wrap_objects, counts);
   }
   return counts;
 }

@@ -23,6 +23,9 @@ struct ModelCounts {
   int rigid_tendons = 0;
   int actuators = 0;
   int wrap_cylinders = 0;
+  int wrap_spheres = 0;
+  int wrap_ellipsoids = 0;
+  int passive_forces = 0;
   int markers = 0;
 };
 ModelCounts countModel(const ModelSpec& spec);

@@ -30,12 +30,35 @@ double limitedControl(double value) {
   return std::clamp(value, -kNoLimit, kNoLimit);
 }
 
-WrapCylinderSpec readWrapCylinder(const OsimElement& element) {
-  if (element.type() != "WrapCylinder") {
+/// Sizes of a wrap object of the kind that the element's type names.
+void readWrapSize(const OsimElement& element, WrapObjectSpec& spec) {
+  if (element.type() == "WrapCylinder") {
+    spec.kind = WrapObjectSpec::Kind::kCylinder;
+    spec.radius = element.number("radius", 1.0);
+    spec.length = element.number("length", 1.0);
+  } else if (element.type() == "WrapSphere") {
+    spec.kind = WrapObjectSpec::Kind::kSphere;
+    spec.radius = element.number("radius", 0.05);
+  } else if (element.type() == "WrapEllipsoid") {
+    spec.kind = WrapObjectSpec::Kind::kEllipsoid;
+    spec.semi_axes = element.vector3("dimensions", spec.semi_axes);
+  } else if (element.type() == "WrapTorus") {
     element.fail(ErrorCode::kModelUnsupported,
-                 element.describe() + ": of the wrap objects only cylinders can be simulated here");
+                 element.describe() +
+                     ": paths through a torus follow no rigid surface, so that their moment arms "
+                     "would not be those of their lengths");
+  } else {
+    element.fail(
+        ErrorCode::kModelUnsupported,
+        element.describe() + ": muscle paths over this kind of surface are not known here");
   }
-  WrapCylinderSpec spec;
+  if (!(spec.radius > 0) || !(spec.length > 0) || !(spec.semi_axes.minCoeff() > 0)) {
+    element.fail(ErrorCode::kModelValue, element.describe() + " needs sizes above 0");
+  }
+}
+
+WrapObjectSpec readWrapObject(const OsimElement& element) {
+  WrapObjectSpec spec;
   spec.name = element.requireName();
   spec.rotation = element.vector3("xyz_body_rotation", Vector3d::Zero());
   spec.translation = element.vector3("translation", Vector3d::Zero());
@@ -48,13 +71,8 @@ WrapCylinderSpec readWrapCylinder(const OsimElement& element) {
         .fail(ErrorCode::kModelValue,
               "quadrant is 'all' or an axis with a sign, found '" + spec.quadrant + "'");
   }
-  spec.radius = element.number("radius", 1.0);
-  spec.length = element.number("length", 1.0);
   spec.active = element.boolean("active", true);
-  if (!(spec.radius > 0) || !(spec.length > 0)) {
-    element.fail(ErrorCode::kModelValue,
-                 element.describe() + " needs a positive radius and length");
-  }
+  readWrapSize(element, spec);
   return spec;
 }
 
@@ -340,6 +358,7 @@ PathWrapSpec readPathWrap(const OsimElement& wrap, const std::vector<std::string
     spec.first_point = static_cast<int>(ends[0]);
     spec.last_point = static_cast<int>(ends[1]);
   }
+  spec.method = wrap.text("method", spec.method);
   return spec;
 }
 
@@ -405,12 +424,12 @@ void readTorqueActuator(const OsimElement& actuator, const OsimFrames& frames, A
 
 }  // namespace
 
-std::vector<WrapCylinderSpec> readWrapCylinders(const OsimElement& owner) {
-  std::vector<WrapCylinderSpec> cylinders;
+std::vector<WrapObjectSpec> readWrapObjects(const OsimElement& owner) {
+  std::vector<WrapObjectSpec> objects;
   for (const OsimElement& element : owner.objectsOf("WrapObjectSet")) {
-    cylinders.push_back(readWrapCylinder(element));
+    objects.push_back(readWrapObject(element));
   }
-  return cylinders;
+  return objects;
 }
 
 MuscleSpec readMuscle(const OsimElement& muscle,

@@ -6,6 +6,9 @@
 #include <set>
 #include <string_view>
 
+#include <Eigen/Eigenvalues>
+
+#include "core/io/number_text.h"
 #include "core/io/osim_element.h"
 #include "core/io/osim_forces.h"
 #include "core/io/osim_frames.h"
@@ -57,7 +60,7 @@ class ModelReader {
   void readForces();
   void readForce(const OsimElement& force);
   void readGroups();
-  void addWraps(const OsimElement& owner, std::vector<WrapCylinderSpec>& wraps);
+  void addWraps(const OsimElement& owner, std::vector<WrapObjectSpec>& wraps);
   void requireNew(std::set<std::string>& names, const OsimElement& element);
   void warn(const OsimElement& element, const std::string& sentence);
 
@@ -115,8 +118,34 @@ std::array<double, 6> readInertia(const OsimElement& body) {
   return inertia;
 }
 
-void ModelReader::addWraps(const OsimElement& owner, std::vector<WrapCylinderSpec>& wraps) {
-  for (const WrapCylinderSpec& wrap : readWrapCylinders(owner)) {
+/// Raises the middle principal moment where the largest exceeds the sum of the other two, which no
+/// body can have: to the difference, that of a flat body. @returns what was done, empty if nothing
+std::string repairInertia(std::array<double, 6>& I) {
+  Eigen::Matrix3d tensor;
+  tensor << I[0], I[3], I[4], I[3], I[1], I[5], I[4], I[5], I[2];
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(tensor);
+  Vector3d moments = principal.eigenvalues();  // ascending
+  constexpr double kRounding = 1e-9;
+  if (moments[0] < 0 || moments[0] + moments[1] >= (1 - kRounding) * moments[2]) {
+    return "";
+  }
+  const double stated = moments[1];
+  moments[1] = moments[2] - moments[0];
+  const Eigen::Matrix3d& axes = principal.eigenvectors();
+  const Eigen::Matrix3d repaired = axes * moments.asDiagonal() * axes.transpose();
+  I = {repaired(0, 0),
+       repaired(1, 1),
+       repaired(2, 2),
+       repaired(0, 1),
+       repaired(0, 2),
+       repaired(1, 2)};
+  return "has an inertia that no body can have; its moment of " + formatNumber(stated) +
+         " kg m^2 was raised to " + formatNumber(moments[1]) +
+         ", the largest moment less the smallest";
+}
+
+void ModelReader::addWraps(const OsimElement& owner, std::vector<WrapObjectSpec>& wraps) {
+  for (const WrapObjectSpec& wrap : readWrapObjects(owner)) {
     if (std::find(wrap_objects_.begin(), wrap_objects_.end(), wrap.name) != wrap_objects_.end()) {
       owner.property("WrapObjectSet")
           .fail(ErrorCode::kModelDuplicateName,
@@ -134,7 +163,7 @@ void ModelReader::addWraps(const OsimElement& owner, std::vector<WrapCylinderSpe
 void ModelReader::readBody(const OsimElement& element) {
   const std::string name = element.requireName();
   if (name == "ground") {  // documents below 30501 list ground among the bodies
-    addWraps(element, spec_.ground_wrap_cylinders);
+    addWraps(element, spec_.ground_wrap_objects);
     return;
   }
   frames_.addBody(element, name);
@@ -146,7 +175,11 @@ void ModelReader::readBody(const OsimElement& element) {
   }
   body.mass_center = element.vector3("mass_center", Vector3d::Zero());
   body.inertia = readInertia(element);
-  addWraps(element, body.wrap_cylinders);
+  const std::string repair = repairInertia(body.inertia);
+  if (!repair.empty()) {
+    warn(element, repair);
+  }
+  addWraps(element, body.wrap_objects);
   frames_.addOffsetFrames(name, element.property("components").children());
   body_elements_.push_back(element);
   spec_.bodies.push_back(std::move(body));
@@ -182,7 +215,7 @@ void ModelReader::readMeshes(const OsimElement& element, std::size_t body) {
 
 void ModelReader::readBodies() {
   if (const OsimElement ground = model_.property("Ground")) {
-    addWraps(ground, spec_.ground_wrap_cylinders);
+    addWraps(ground, spec_.ground_wrap_objects);
   }
   for (const OsimElement& element : model_.objectsOf("BodySet")) {
     if (element.type() != "Body") {

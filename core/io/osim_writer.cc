@@ -119,16 +119,42 @@ double documentLimit(double limit) {
   return std::abs(limit) >= kNoLimit ? std::copysign(INFINITY, limit) : limit;
 }
 
-void writeWraps(XmlText& xml, const std::vector<WrapCylinderSpec>& wraps) {
+void writeWrapSize(XmlText& xml, const WrapObjectSpec& wrap) {
+  switch (wrap.kind) {
+    case WrapObjectSpec::Kind::kCylinder:
+      xml.number("radius", wrap.radius);
+      xml.number("length", wrap.length);
+      break;
+    case WrapObjectSpec::Kind::kSphere:
+      xml.number("radius", wrap.radius);
+      break;
+    case WrapObjectSpec::Kind::kEllipsoid:
+      xml.numbers("dimensions", wrap.semi_axes);
+      break;
+  }
+}
+
+const char* wrapType(WrapObjectSpec::Kind kind) {
+  switch (kind) {
+    case WrapObjectSpec::Kind::kCylinder:
+      return "WrapCylinder";
+    case WrapObjectSpec::Kind::kSphere:
+      return "WrapSphere";
+    case WrapObjectSpec::Kind::kEllipsoid:
+      return "WrapEllipsoid";
+  }
+  return "WrapCylinder";
+}
+
+void writeWraps(XmlText& xml, const std::vector<WrapObjectSpec>& wraps) {
   xml.openSet("WrapObjectSet", "wrapobjectset");
-  for (const WrapCylinderSpec& wrap : wraps) {
-    xml.open("WrapCylinder", wrap.name);
+  for (const WrapObjectSpec& wrap : wraps) {
+    xml.open(wrapType(wrap.kind), wrap.name);
     xml.boolean("active", wrap.active);
     xml.numbers("xyz_body_rotation", wrap.rotation);
     xml.numbers("translation", wrap.translation);
     xml.text("quadrant", wrap.quadrant);
-    xml.number("radius", wrap.radius);
-    xml.number("length", wrap.length);
+    writeWrapSize(xml, wrap);
     xml.close();
   }
   xml.closeSet();
@@ -188,7 +214,7 @@ void writeBodies(XmlText& xml, const ModelSpec& spec) {
   for (const BodySpec& body : spec.bodies) {
     xml.open("Body", body.name);
     writeMeshes(xml, body);
-    writeWraps(xml, body.wrap_cylinders);
+    writeWraps(xml, body.wrap_objects);
     xml.number("mass", body.mass);
     xml.numbers("mass_center", body.mass_center);
     xml.numbers("inertia", body.inertia);
@@ -386,7 +412,7 @@ void writePath(XmlText& xml, const ModelSpec& spec, const MuscleSpec& muscle) {
   for (const PathWrapSpec& wrap : muscle.wraps) {
     xml.open("PathWrap", wrap.wrap_object + "_wrap");
     xml.text("wrap_object", wrap.wrap_object);
-    xml.text("method", "hybrid");
+    xml.text("method", wrap.method);
     xml.text("range", std::to_string(wrap.first_point) + " " + std::to_string(wrap.last_point));
     xml.close();
   }
@@ -605,7 +631,7 @@ std::string writeOsim(const ModelSpec& spec) {
   xml.openDocument();
   xml.open("Model", spec.name);
   xml.open("Ground", "ground");
-  writeWraps(xml, spec.ground_wrap_cylinders);
+  writeWraps(xml, spec.ground_wrap_objects);
   xml.close();
   xml.numbers("gravity", spec.gravity);
   xml.text("credits", spec.credits);

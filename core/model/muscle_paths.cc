@@ -13,7 +13,7 @@
 #include "core/base/error.h"
 #include "core/base/where.h"
 #include "core/math/scalar_function.h"
-#include "core/model/wrap_cylinder.h"
+#include "core/model/wrap_surface.h"
 
 namespace gaitmill {
 
@@ -21,13 +21,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Points of one path while it is being computed: the document's and two per cylinder that it
+/// Points of one path while it is being computed: the document's and two per surface that it
 /// touches.
 constexpr int kMaxPathPoints = 24;
 constexpr int kMaxWraps = 4;
 constexpr int kMaxNodes = kMaxPathPoints + 2 * kMaxWraps;
 
-/// Tangent points of coupled cylinders are iterated until they move less than this [m]: moment arms
+/// Tangent points of coupled surfaces are iterated until they move less than this [m]: moment arms
 /// are first order in their error and shall equal the length's derivative to 1e-8.
 constexpr double kTangentTolerance = 1e-12;
 constexpr int kMaxPasses = 100;
@@ -66,7 +66,7 @@ struct Motion {
 struct Wrap {
   BodyIndex body;
   int slot = 0;
-  WrapCylinder cylinder;
+  WrapSurface surface;
   Pose X_BW;
   int first_point = 0;  ///< 0-based, inclusive
   int last_point = 0;
@@ -82,8 +82,8 @@ struct Node {
   Vector3d p_G;
   int slot = 0;
   int point = -1;      ///< document point, or
-  int wrap = -1;       ///< the cylinder whose tangent point this is
-  double surface = 0;  ///< length to the next node where both are tangent points of one cylinder
+  int wrap = -1;       ///< the wrap object whose tangent point this is
+  double surface = 0;  ///< length to the next node where both are tangent points of one surface
 };
 
 struct Path {
@@ -144,19 +144,19 @@ int findSlot(Path& path, BodyIndex body) {
 
 struct NamedWrap {
   BodyIndex body;
-  const WrapCylinderSpec* spec = nullptr;
+  const WrapObjectSpec* spec = nullptr;
 };
 
 NamedWrap findWrapObject(const Model& model, const std::string& name, const std::string& muscle) {
   for (int b = 0; b < model.bodyCount(); ++b) {
-    for (const WrapCylinderSpec& wrap :
-         model.spec().bodies[static_cast<std::size_t>(b)].wrap_cylinders) {
+    for (const WrapObjectSpec& wrap :
+         model.spec().bodies[static_cast<std::size_t>(b)].wrap_objects) {
       if (wrap.name == name) {
         return {BodyIndex(b), &wrap};
       }
     }
   }
-  for (const WrapCylinderSpec& wrap : model.spec().ground_wrap_cylinders) {
+  for (const WrapObjectSpec& wrap : model.spec().ground_wrap_objects) {
     if (wrap.name == name) {
       return {kGround, &wrap};
     }
@@ -175,7 +175,7 @@ void addWraps(const Model& model, const MuscleSpec& muscle, Path& path) {
     Wrap wrap;
     wrap.body = named.body;
     wrap.slot = findSlot(path, named.body);
-    wrap.cylinder = makeWrapCylinder(*named.spec);
+    wrap.surface = makeWrapSurface(*named.spec);
     wrap.X_BW = makePose(named.spec->rotation, named.spec->translation);
     const int last = static_cast<int>(muscle.path.size()) - 1;
     wrap.first_point = spec.first_point < 1 ? 0 : spec.first_point - 1;
@@ -247,7 +247,7 @@ Path makePath(const Model& model, const MuscleSpec& muscle) {
   return path;
 }
 
-/// The cylinder placed in ground for one pose.
+/// The surface placed in ground for one pose.
 struct PlacedWrap {
   Pose X_GW;
   int first_point = 0;  ///< of the points that are part of the path, those in the wrap's range
@@ -279,7 +279,7 @@ Scan scanSegments(const Wrap& wrap, const PlacedWrap& placed, const NodeList& pa
     }
     const Vector3d P1 = placed.toLocal(path[i].p_G);
     const Vector3d P2 = placed.toLocal(path[i + 1].p_G);
-    const WrapContact contact = calcWrapContact(wrap.cylinder, P1, P2);
+    const WrapContact contact = calcWrapContact(wrap.surface, P1, P2);
     scan.last = contact.status;
     if (!contact.wraps()) {
       continue;
@@ -312,6 +312,10 @@ struct MusclePaths::Impl {
   void wrapToConvergence(const Path& path);
   void sumPath(const ModelState& state, const Path& path, int muscle);
   void traceArc(const Path& path, int first, double step, std::vector<PathVertex>& vertices) const;
+  void traceHelix(const Path& path,
+                  int first,
+                  double step,
+                  std::vector<PathVertex>& vertices) const;
 
   const Model& model;
   std::vector<Path> paths;
@@ -529,17 +533,47 @@ void MusclePaths::Impl::calcPath(const ModelState& state, std::size_t muscle) {
   sumPath(state, path, static_cast<int>(muscle));
 }
 
-/// The points strictly between node `first` and the next one, which lie on one cylinder: on the
-/// helix, so that equal turns are equal steps along the axis.
+/// The points strictly between node `first` and the next one, which lie on one surface.
 void MusclePaths::Impl::traceArc(const Path& path,
                                  int first,
                                  double step,
                                  std::vector<PathVertex>& vertices) const {
+  const auto w = static_cast<std::size_t>(nodes[first].wrap);
+  const WrapSurface& surface = path.wraps[w].surface;
+  if (surface.kind == WrapObjectSpec::Kind::kCylinder) {
+    traceHelix(path, first, step, vertices);
+    return;
+  }
+  WrapContact contact;
+  const Vector3d P1 = placed[w].toLocal(nodes[first - 1].p_G);
+  const Vector3d P2 = placed[w].toLocal(nodes[first + 2].p_G);
+  contact.r1 = placed[w].toLocal(nodes[first].p_G);
+  contact.r2 = placed[w].toLocal(nodes[first + 1].p_G);
+  contact.surface_length = nodes[first].surface;
+  const double cosine =
+      (contact.r1 - P1).stableNormalized().dot((P2 - contact.r2).stableNormalized());
+  const int chords = static_cast<int>(std::ceil(std::acos(std::clamp(cosine, -1.0, 1.0)) / step));
+  std::vector<Vector3d> points;
+  if (surface.kind == WrapObjectSpec::Kind::kSphere) {
+    traceSurface(surface.sphere, P1, contact, std::max(0, chords - 1), points);
+  } else {
+    traceSurface(surface.ellipsoid, P1, contact, std::max(0, chords - 1), points);
+  }
+  for (const Vector3d& point : points) {
+    vertices.push_back({placed[w].X_GW * point, path.wraps[w].body});
+  }
+}
+
+/// The same over a cylinder: on the helix, so that equal turns are equal steps along the axis.
+void MusclePaths::Impl::traceHelix(const Path& path,
+                                   int first,
+                                   double step,
+                                   std::vector<PathVertex>& vertices) const {
   const Node& node = nodes[first];
   const auto w = static_cast<std::size_t>(node.wrap);
   const Vector3d r1 = placed[w].toLocal(node.p_G);
   const Vector3d r2 = placed[w].toLocal(nodes[first + 1].p_G);
-  const double radius = path.wraps[w].cylinder.radius;
+  const double radius = path.wraps[w].surface.cylinder.radius;
   const double rise = r2.z() - r1.z();
   const double around = std::sqrt(std::max(0.0, node.surface * node.surface - rise * rise));
   const double turn = radius > 0 ? around / radius : 0.0;

@@ -14,11 +14,12 @@ namespace gaitmill {
 struct PathVertex {
   Eigen::Vector3d p_G = Eigen::Vector3d::Zero();
   BodyIndex
-      body;  ///< that the tendon touches here: of a path point, or of the cylinder wrapped over
+      body;  ///< that the tendon touches here: of a path point, or of the surface wrapped over
 };
 
-/// Lengths and moment arms of all muscle paths at once, wrapped over cylinders as true geodesics
-/// (spec/path.md, exact mode: closed form per cylinder, several cylinders iterated to convergence).
+/// Lengths and moment arms of all muscle paths at once, wrapped over cylinders, spheres and
+/// ellipsoids as true geodesics (spec/path.md, exact mode: closed form per cylinder and sphere,
+/// several surfaces iterated to convergence).
 /// Moving points contribute to lengths, speeds and moment arms by their own motion on their body;
 /// beyond the range of their coordinate they rest, with derivative 0 (OpenSim extrapolates there).
 /// Conditional points come and go with the pose: lengths and arms jump at the ends of their ranges,
@@ -46,11 +47,11 @@ class MusclePaths {
   void calcSpeeds(const Eigen::Ref<const Eigen::VectorXd>& u,
                   Eigen::Ref<Eigen::VectorXd> speeds) const;
 
-  /// Number of cylinders that the path touched in the last calc(): changes mark kinks of dl/dt.
+  /// Number of surfaces that the path touched in the last calc(): changes mark kinks of dl/dt.
   int findWrapCount(MuscleIndex muscle) const;
 
   /// One path from origin to insertion at the pose of `state`, as calc() finds it, its arcs over
-  /// cylinders as chords. A tension along the path pulls each vertex's body towards its neighbours.
+  /// surfaces as chords. A tension along the path pulls each vertex's body towards its neighbours.
   /// @param arc_step  largest turn between two vertices of an arc [rad] > 0
   void tracePath(const ModelState& state,
                  MuscleIndex muscle,

@@ -121,30 +121,34 @@ bool isLongWrap(const WrapCylinder& cylinder,
 
 }  // namespace
 
-WrapCylinder makeWrapCylinder(const WrapCylinderSpec& spec) {
-  const Where where{{}, 0, 0, spec.name};
+HalfSpace parseQuadrant(const std::string& quadrant, const std::string& wrap_object) {
+  HalfSpace half;
+  std::string axis_name = quadrant;
+  if (axis_name.empty() || axis_name == "all" || axis_name == "Unassigned") {
+    return half;
+  }
+  if (axis_name[0] == '+' || axis_name[0] == '-') {
+    half.sign = axis_name[0] == '-' ? -1.0 : 1.0;
+    axis_name.erase(0, 1);
+  }
+  const std::size_t axis = std::string("xyzXYZ").find(axis_name);
+  require(axis_name.size() == 1 && axis != std::string::npos,
+          ErrorCode::kModelValue,
+          "wrap object '" + wrap_object + "' has the quadrant '" + quadrant +
+              "'; expected all, or an axis such as x, +y or -z",
+          {{}, 0, 0, wrap_object});
+  half.axis = static_cast<int>(axis % 3);
+  return half;
+}
+
+WrapCylinder makeWrapCylinder(const WrapObjectSpec& spec) {
   require(std::isfinite(spec.radius) && spec.radius > 0 && std::isfinite(spec.length),
           ErrorCode::kModelValue,
           "wrap cylinder '" + spec.name + "' needs a positive radius, found " +
               std::to_string(spec.radius),
-          where);
-  WrapCylinder cylinder{spec.radius, spec.length, -1, 1.0};
-  std::string quadrant = spec.quadrant;
-  if (quadrant.empty() || quadrant == "all" || quadrant == "Unassigned") {
-    return cylinder;
-  }
-  if (quadrant[0] == '+' || quadrant[0] == '-') {
-    cylinder.sign = quadrant[0] == '-' ? -1.0 : 1.0;
-    quadrant.erase(0, 1);
-  }
-  const std::size_t axis = std::string("xyzXYZ").find(quadrant);
-  require(quadrant.size() == 1 && axis != std::string::npos,
-          ErrorCode::kModelValue,
-          "wrap cylinder '" + spec.name + "' has the quadrant '" + spec.quadrant +
-              "'; expected all, or an axis such as x, +y or -z",
-          where);
-  cylinder.axis = static_cast<int>(axis % 3);
-  return cylinder;
+          {{}, 0, 0, spec.name});
+  const HalfSpace half = parseQuadrant(spec.quadrant, spec.name);
+  return {spec.radius, spec.length, half.axis, half.sign};
 }
 
 WrapContact calcWrapContact(const WrapCylinder& cylinder, const Vector3d& P1, const Vector3d& P2) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "core/data/model_spec.h"
+#include "core/model/wrap_contact.h"
 
 namespace gaitmill {
 
@@ -16,24 +17,7 @@ struct WrapCylinder {
 };
 
 /// @throws Error kModelValue for an unknown quadrant or a negative radius
-WrapCylinder makeWrapCylinder(const WrapCylinderSpec& spec);
-
-/// How one straight segment meets a cylinder.
-struct WrapContact {
-  enum class Status {
-    kNone,       ///< passes by: straight
-    kInside,     ///< an end lies inside the cylinder: straight
-    kMandatory,  ///< the straight line cuts the cylinder
-    kWrapped,    ///< dragged over by the half-space constraint
-  };
-  Status status = Status::kNone;
-  Eigen::Vector3d r1 = Eigen::Vector3d::Zero();  ///< tangent points, in the cylinder's frame [m]
-  Eigen::Vector3d r2 = Eigen::Vector3d::Zero();
-  double surface_length = 0;  ///< of the helix between them [m]
-  double turn = 0;            ///< signed angle travelled from r1 to r2 about z [rad]
-
-  bool wraps() const { return status == Status::kMandatory || status == Status::kWrapped; }
-};
+WrapCylinder makeWrapCylinder(const WrapObjectSpec& spec);
 
 /// Shortest path from P1 to P2 over the cylinder, as a geodesic in closed form: two tangents and a
 /// helix, a straight line once the surface is unrolled (spec/path.md 5.1 to 5.4).

@@ -26,9 +26,9 @@ void visitFields(Archive& archive, Access<Archive, FunctionSpec>& value) {
 }
 
 template <class Archive>
-void visitFields(Archive& archive, Access<Archive, WrapCylinderSpec>& value) {
-  auto& [name, rotation, translation, quadrant, radius, length, active] = value;
-  archive(name, rotation, translation, quadrant, radius, length, active);
+void visitFields(Archive& archive, Access<Archive, WrapObjectSpec>& value) {
+  auto& [name, kind, rotation, translation, quadrant, radius, length, semi_axes, active] = value;
+  archive(name, kind, rotation, translation, quadrant, radius, length, semi_axes, active);
 }
 
 template <class Archive>
@@ -39,8 +39,8 @@ void visitFields(Archive& archive, Access<Archive, MeshSpec>& value) {
 
 template <class Archive>
 void visitFields(Archive& archive, Access<Archive, BodySpec>& value) {
-  auto& [name, mass, mass_center, inertia, wrap_cylinders, meshes] = value;
-  archive(name, mass, mass_center, inertia, wrap_cylinders, meshes);
+  auto& [name, mass, mass_center, inertia, wrap_objects, meshes] = value;
+  archive(name, mass, mass_center, inertia, wrap_objects, meshes);
 }
 
 template <class Archive>
@@ -87,8 +87,8 @@ void visitFields(Archive& archive, Access<Archive, PathPointSpec>& value) {
 
 template <class Archive>
 void visitFields(Archive& archive, Access<Archive, PathWrapSpec>& value) {
-  auto& [wrap_object, first_point, last_point] = value;
-  archive(wrap_object, first_point, last_point);
+  auto& [wrap_object, first_point, last_point, method] = value;
+  archive(wrap_object, first_point, last_point, method);
 }
 
 template <class Archive>
@@ -246,6 +246,50 @@ void visitFields(Archive& archive, Access<Archive, ActuatorSpec>& value) {
 }
 
 template <class Archive>
+void visitFields(Archive& archive, Access<Archive, PassiveForceSpec>& value) {
+  auto& [name,
+         kind,
+         coordinate,
+         upper_limit,
+         lower_limit,
+         upper_stiffness,
+         lower_stiffness,
+         damping,
+         transition,
+         stiffness,
+         rest_length,
+         viscosity,
+         frame1,
+         frame2,
+         rotational_stiffness,
+         translational_stiffness,
+         rotational_damping,
+         translational_damping,
+         functions,
+         expressions] = value;
+  archive(name,
+          kind,
+          coordinate,
+          upper_limit,
+          lower_limit,
+          upper_stiffness,
+          lower_stiffness,
+          damping,
+          transition,
+          stiffness,
+          rest_length,
+          viscosity,
+          frame1,
+          frame2,
+          rotational_stiffness,
+          translational_stiffness,
+          rotational_damping,
+          translational_damping,
+          functions,
+          expressions);
+}
+
+template <class Archive>
 void visitFields(Archive& archive, Access<Archive, MuscleGroupSpec>& value) {
   auto& [name, members] = value;
   archive(name, members);
@@ -257,24 +301,28 @@ void visitFields(Archive& archive, Access<Archive, ModelSpec>& value) {
          credits,
          gravity,
          bodies,
-         ground_wrap_cylinders,
+         ground_wrap_objects,
          joints,
          couplers,
          markers,
          muscles,
          actuators,
-         muscle_groups] = value;
+         passive_forces,
+         muscle_groups,
+         document_version] = value;
   archive(name,
           credits,
           gravity,
           bodies,
-          ground_wrap_cylinders,
+          ground_wrap_objects,
           joints,
           couplers,
           markers,
           muscles,
           actuators,
-          muscle_groups);
+          passive_forces,
+          muscle_groups,
+          document_version);
 }
 
 template <class Archive>

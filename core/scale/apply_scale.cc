@@ -39,18 +39,30 @@ void stretch(const Vector3d& s, Vector3d& point) {
   point = point.cwiseProduct(s);
 }
 
-void scaleWrap(const Vector3d& s, WrapCylinderSpec& cylinder) {
+// Every size of the surface grows with its axes as the body stretches them: a radius about an axis
+// with the mean of the two across it, that of a sphere with the mean of all three.
+void scaleWrap(const Vector3d& s, WrapObjectSpec& wrap) {
   using Eigen::AngleAxisd;
-  const Eigen::Matrix3d R = (AngleAxisd(cylinder.rotation.x(), Vector3d::UnitX()) *
-                             AngleAxisd(cylinder.rotation.y(), Vector3d::UnitY()) *
-                             AngleAxisd(cylinder.rotation.z(), Vector3d::UnitZ()))
+  const Eigen::Matrix3d R = (AngleAxisd(wrap.rotation.x(), Vector3d::UnitX()) *
+                             AngleAxisd(wrap.rotation.y(), Vector3d::UnitY()) *
+                             AngleAxisd(wrap.rotation.z(), Vector3d::UnitZ()))
                                 .toRotationMatrix();
   const auto along = [&](int axis) {
     return R.col(axis).cwiseProduct(s).norm();
   };
-  cylinder.radius *= 0.5 * (along(0) + along(1));
-  cylinder.length *= along(2);
-  stretch(s, cylinder.translation);
+  switch (wrap.kind) {
+    case WrapObjectSpec::Kind::kCylinder:
+      wrap.radius *= 0.5 * (along(0) + along(1));
+      wrap.length *= along(2);
+      break;
+    case WrapObjectSpec::Kind::kSphere:
+      wrap.radius *= (along(0) + along(1) + along(2)) / 3;
+      break;
+    case WrapObjectSpec::Kind::kEllipsoid:
+      stretch({along(0), along(1), along(2)}, wrap.semi_axes);
+      break;
+  }
+  stretch(s, wrap.translation);
 }
 
 // Inertia entries: xx yy zz xy xz yz.
@@ -99,8 +111,8 @@ void scaleMass(const Vector3d& s, MassDistribution distribution, BodySpec& body)
 
 void scaleBody(const Vector3d& s, MassDistribution distribution, BodySpec& body) {
   stretch(s, body.mass_center);
-  for (WrapCylinderSpec& cylinder : body.wrap_cylinders) {
-    scaleWrap(s, cylinder);
+  for (WrapObjectSpec& wrap : body.wrap_objects) {
+    scaleWrap(s, wrap);
   }
   for (MeshSpec& mesh : body.meshes) {
     stretch(s, mesh.scale_factors);

@@ -38,9 +38,9 @@ int countCoordinates(const ModelSpec& spec) {
 }
 
 int countWraps(const ModelSpec& spec) {
-  int count = static_cast<int>(spec.ground_wrap_cylinders.size());
+  int count = static_cast<int>(spec.ground_wrap_objects.size());
   for (const BodySpec& body : spec.bodies) {
-    count += static_cast<int>(body.wrap_cylinders.size());
+    count += static_cast<int>(body.wrap_objects.size());
   }
   return count;
 }

@@ -21,10 +21,11 @@ bool same(const FunctionSpec& a, const FunctionSpec& b) {
   return kind == b.kind && x == b.x && y == b.y && scale == b.scale;
 }
 
-bool same(const WrapCylinderSpec& a, const WrapCylinderSpec& b) {
-  const auto& [name, rotation, translation, quadrant, radius, length, active] = a;
-  return name == b.name && rotation == b.rotation && translation == b.translation &&
-         quadrant == b.quadrant && radius == b.radius && length == b.length && active == b.active;
+bool same(const WrapObjectSpec& a, const WrapObjectSpec& b) {
+  const auto& [name, kind, rotation, translation, quadrant, radius, length, semi_axes, active] = a;
+  return name == b.name && kind == b.kind && rotation == b.rotation &&
+         translation == b.translation && quadrant == b.quadrant && radius == b.radius &&
+         length == b.length && semi_axes == b.semi_axes && active == b.active;
 }
 
 bool same(const MeshSpec& a, const MeshSpec& b) {
@@ -61,8 +62,9 @@ bool same(const PathPointSpec& a, const PathPointSpec& b) {
 }
 
 bool same(const PathWrapSpec& a, const PathWrapSpec& b) {
-  const auto& [object, first, last] = a;
-  return object == b.wrap_object && first == b.first_point && last == b.last_point;
+  const auto& [object, first, last, method] = a;
+  return object == b.wrap_object && first == b.first_point && last == b.last_point &&
+         method == b.method;
 }
 
 template <class List>
@@ -79,7 +81,7 @@ void expectSame(const BodySpec& a, const BodySpec& b) {
   EXPECT_EQ(mass, b.mass);
   EXPECT_EQ(mass_center, b.mass_center);
   EXPECT_EQ(inertia, b.inertia);
-  expectSameList(wraps, b.wrap_cylinders);
+  expectSameList(wraps, b.wrap_objects);
   expectSameList(meshes, b.meshes);
 }
 
@@ -281,18 +283,22 @@ void expectSame(const ModelSpec& a, const ModelSpec& b) {
                markers,
                muscles,
                actuators,
-               groups] = a;
+               passive_forces,
+               groups,
+               document_version] = a;
   EXPECT_EQ(name, b.name);
   EXPECT_EQ(credits, b.credits);
   EXPECT_EQ(gravity, b.gravity);
   expectSameAll(bodies, b.bodies);
-  expectSameList(ground_wraps, b.ground_wrap_cylinders);
+  expectSameList(ground_wraps, b.ground_wrap_objects);
   expectSameAll(joints, b.joints);
   expectSameAll(couplers, b.couplers);
   expectSameAll(markers, b.markers);
   expectSameAll(muscles, b.muscles);
   expectSameAll(actuators, b.actuators);
+  expectSameAll(passive_forces, b.passive_forces);
   expectSameAll(groups, b.muscle_groups);
+  EXPECT_EQ(document_version, b.document_version);
 }
 
 /// A model with one of everything the values can say, all of it away from the defaults.
@@ -411,12 +417,15 @@ ModelSpec makeModelWithEverything() {
   for (const JointSpec& joint : spec.joints) {
     spec.bodies.push_back({joint.child.body, 1.0 / 3.0, {1, 2, 3}, {3, 4, 5, 0.1, 0.2, -0.3}, {}});
   }
-  spec.bodies[0].wrap_cylinders = {{"wrap_a", {1, 2, 3}, {4, 5, 6}, "-y", 0.03, 0.2, true},
-                                   {"wrap_b", {0, 0, 0}, {0, 0, 0}, "all", 1, 1, false}};
+  using Wrap = WrapObjectSpec::Kind;
+  spec.bodies[0].wrap_objects = {
+      {"wrap_a", Wrap::kCylinder, {1, 2, 3}, {4, 5, 6}, "-y", 0.03, 0.2},
+      {"wrap_b", Wrap::kSphere, {0, 0, 0}, {0, 0, 0}, "all", 0.3},
+      {"wrap_c", Wrap::kEllipsoid, {0, 1, 0}, {1, 0, 0}, "z", 1, 1, {0.1, 1.0 / 3.0, 0.3}, false}};
   spec.bodies[0].meshes = {{"a & b.vtp", {0.85, 1.0 / 3.0, 1}, {0, 0, 0}, {0, 0, 0}},
                            {"c.stl", {1, 1, 1}, {0.1, 0.2, 0.3}, {0, 0, 0}},
                            {"d.obj", {1, 1, 2}, {0, 0, 0}, {0.1, -0.2, 0.3}}};
-  spec.ground_wrap_cylinders = {{"wrap_g", {0, 0.1, 0}, {0, 0, 0}, "x", 0.3, 2, true}};
+  spec.ground_wrap_objects = {{"wrap_g", Wrap::kCylinder, {0, 0.1, 0}, {0, 0, 0}, "x", 0.3, 2}};
   spec.couplers = {
       {"c", "pin_q0", "slider_q0", {FunctionSpec::Kind::kLinear, {}, {2, 1}, 3}, 0.5, false},
       {"d", "pin_q0", "planar_q0", {FunctionSpec::Kind::kSimmSpline, {0, 1}, {2, 3}, 1}, 1, true}};

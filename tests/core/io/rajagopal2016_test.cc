@@ -146,15 +146,15 @@ TEST(Rajagopal2016, LeftBodiesAndWrapsMirrorTheRight) {
         getModel().bodies.at(static_cast<std::size_t>(getModel().findBody(otherSide(right.name))));
     EXPECT_EQ(right.mass, left.mass);
     EXPECT_EQ(right.inertia, left.inertia);
-    for (const WrapCylinderSpec& wrap : right.wrap_cylinders) {
+    for (const WrapObjectSpec& wrap : right.wrap_objects) {
       if (!isRight(wrap.name)) {
         continue;
       }
       const auto twin = std::find_if(
-          left.wrap_cylinders.begin(), left.wrap_cylinders.end(), [&](const WrapCylinderSpec& w) {
+          left.wrap_objects.begin(), left.wrap_objects.end(), [&](const WrapObjectSpec& w) {
             return w.name == otherSide(wrap.name);
           });
-      ASSERT_NE(twin, left.wrap_cylinders.end()) << wrap.name;
+      ASSERT_NE(twin, left.wrap_objects.end()) << wrap.name;
       EXPECT_EQ(twin->translation, mirrorPoint(wrap.translation)) << wrap.name;
       EXPECT_EQ(twin->rotation, mirrorAngles(wrap.rotation)) << wrap.name;
       EXPECT_EQ(twin->radius, wrap.radius);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <memory>
 #include <random>
 #include <sstream>
 #include <string>
@@ -12,7 +13,9 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "core/math/scalar_function.h"
 #include "core/model/model.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/support/model_files.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/simple_models.h"
@@ -502,6 +505,138 @@ TEST_F(DelpPathTest, QuadricepsExtendTheKneeOverItsWholeRange) {
     EXPECT_GT(paths.momentArms()(rectus, knee), 0.015) << angle;
     EXPECT_LT(paths.momentArms()(rectus, knee), 0.06) << angle;
   }
+}
+
+/// The leg of Arnold et al. (2010), whose paths wrap over ellipsoids and cylinders. The muscles'
+/// own equations do not matter to their paths.
+class ArnoldLegTest : public SharedDataTest {
+ protected:
+  void SetUp() override {
+    SharedDataTest::SetUp();
+    if (IsSkipped()) {
+      return;
+    }
+    std::string text = readFile(shared("data/models/Arnold2010_right_leg_27musc.osim"));
+    const std::string type = "Schutte1993Muscle_Deprecated";
+    for (std::size_t at = text.find(type); at != std::string::npos; at = text.find(type, at)) {
+      text.replace(at, type.size(), "Millard2012EquilibriumMuscle");
+    }
+    model_ = std::make_unique<Model>(readOsim(text, "arnold.osim"));
+    state_ = std::make_unique<ModelState>(*model_);
+    paths_ = std::make_unique<MusclePaths>(*model_);
+  }
+
+  /// A pose somewhere in the ranges of hip and knee, the patella where it belongs.
+  Eigen::VectorXd makePose(unsigned seed) const {
+    std::mt19937 generator(seed);
+    std::uniform_real_distribution<double> unit(0.02, 0.98);
+    Eigen::VectorXd q = model_->defaultPose();
+    for (const std::string name : {"hip_flexion", "hip_adduction", "hip_rotation", "knee_angle"}) {
+      const CoordinateIndex c = model_->getCoordinate(name);
+      const CoordinateSpec& spec = model_->coordinate(c);
+      q[c.value()] = spec.range_min + (spec.range_max - spec.range_min) * unit(generator);
+    }
+    return followCouplers(q);
+  }
+
+  Eigen::VectorXd followCouplers(Eigen::VectorXd q) const {
+    for (const CouplerSpec& coupler : model_->spec().couplers) {
+      q[model_->getCoordinate(coupler.dependent).value()] =
+          coupler.scale * ScalarFunction(coupler.function)
+                              .evaluate(q[model_->getCoordinate(coupler.independent).value()])
+                              .value;
+    }
+    return q;
+  }
+
+  Eigen::VectorXd calcLengths(const Eigen::VectorXd& q) {
+    state_->setPose(q);
+    paths_->calc(*state_);
+    return paths_->lengths();
+  }
+
+  std::unique_ptr<Model> model_;
+  std::unique_ptr<ModelState> state_;
+  std::unique_ptr<MusclePaths> paths_;
+};
+
+TEST_F(ArnoldLegTest, MomentArmsAreTheDerivativeOfTheLengthOverTheRanges) {
+  constexpr double h = 1e-6;
+  std::vector<int> wrapped(static_cast<std::size_t>(model_->muscleCount()), 0);
+  int compared = 0, apart = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    const Eigen::VectorXd q = makePose(seed);
+    calcLengths(q);
+    const RowMatrix arms = paths_->momentArms();
+    for (int m = 0; m < model_->muscleCount(); ++m) {
+      wrapped[static_cast<std::size_t>(m)] += paths_->findWrapCount(MuscleIndex(m));
+    }
+    for (int c = 0; c < model_->coordinateCount(); ++c) {
+      const auto lengthsAt = [&](double step) {
+        Eigen::VectorXd moved = q;
+        moved[c] += step * h;
+        return calcLengths(moved);
+      };
+      const Eigen::VectorXd slope = (lengthsAt(1) - lengthsAt(-1)) / (2 * h);
+      for (int m = 0; m < model_->muscleCount(); ++m) {
+        ++compared;
+        const bool equal = std::abs(arms(m, c) + slope[m]) < tol(2e-7);
+        apart += equal ? 0 : 1;
+        EXPECT_TRUE(equal) << model_->spec().muscles[static_cast<std::size_t>(m)].name << " "
+                           << model_->coordinateNames()[static_cast<std::size_t>(c)] << " seed "
+                           << seed << ": " << arms(m, c) << " against " << -slope[m];
+      }
+    }
+  }
+  EXPECT_EQ(apart, 0) << "of " << compared;
+  EXPECT_GE(std::count_if(wrapped.begin(), wrapped.end(), [](int n) { return n > 0; }), 12);
+}
+
+// Through the ranges in small steps no path jumps: its length changes by what its arm says.
+TEST_F(ArnoldLegTest, LengthsAreContinuousOverTheRanges) {
+  constexpr int kSteps = 400;
+  for (const std::string name : {"hip_flexion", "hip_adduction", "hip_rotation", "knee_angle"}) {
+    const CoordinateIndex c = model_->getCoordinate(name);
+    const CoordinateSpec& range = model_->coordinate(c);
+    const double step = (range.range_max - range.range_min) / kSteps;
+    Eigen::VectorXd last;
+    for (int i = 0; i <= kSteps; ++i) {
+      Eigen::VectorXd q = model_->defaultPose();
+      q[c.value()] = range.range_min + step * i;
+      const Eigen::VectorXd lengths = calcLengths(followCouplers(q));
+      for (int m = 0; i > 0 && m < model_->muscleCount(); ++m) {
+        // No arm here is longer than 0.1 m.
+        EXPECT_LT(std::abs(lengths[m] - last[m]), 0.1 * step)
+            << model_->spec().muscles[static_cast<std::size_t>(m)].name << " " << name << " step "
+            << i;
+      }
+      last = lengths;
+    }
+  }
+}
+
+TEST_F(ArnoldLegTest, CalcDoesNotAllocate) {
+  const Eigen::VectorXd q = makePose(1);
+  calcLengths(q);
+  EXPECT_EQ(countAllocationsOf([&] { paths_->calc(*state_); }), 0);
+}
+
+// What is drawn lies on the surfaces: no vertex of a wrapped path is inside its ellipsoid.
+TEST_F(ArnoldLegTest, TracedArcsLieOnTheirEllipsoids) {
+  int on_surface = 0;
+  calcLengths(makePose(3));
+  for (int m = 0; m < model_->muscleCount(); ++m) {
+    const MuscleSpec& muscle = model_->spec().muscles[static_cast<std::size_t>(m)];
+    std::vector<PathVertex> path;
+    paths_->tracePath(*state_, MuscleIndex(m), 0.1, path);
+    double length = 0;
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+      length += (path[i + 1].p_G - path[i].p_G).norm();
+    }
+    EXPECT_NEAR(length, paths_->lengths()[m], tol(2e-4)) << muscle.name;
+    on_surface += path.size() > muscle.path.size() + 2 ? 1 : 0;
+  }
+  EXPECT_GE(on_surface, 5);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ class NearGeodesic {
       nodes_.push_back({body, state.pose(body) * point.location});
     }
     for (std::size_t b = 0; !muscle.wraps.empty() && b < model.spec().bodies.size(); ++b) {
-      for (const WrapCylinderSpec& wrap : model.spec().bodies[b].wrap_cylinders) {
+      for (const WrapObjectSpec& wrap : model.spec().bodies[b].wrap_objects) {
         if (wrap.name == muscle.wraps[0].wrap_object) {
           addWrap(wrap, BodyIndex(static_cast<int>(b)), muscle.wraps[0]);
         }
@@ -67,7 +67,7 @@ class NearGeodesic {
     return tau;
   }
 
-  void addWrap(const WrapCylinderSpec& spec, BodyIndex body, const PathWrapSpec& range) {
+  void addWrap(const WrapObjectSpec& spec, BodyIndex body, const PathWrapSpec& range) {
     const WrapCylinder cylinder = makeWrapCylinder(spec);
     Pose X;
     X.R = state_.pose(body).R * (Eigen::AngleAxisd(spec.rotation.x(), Eigen::Vector3d::UnitX()) *

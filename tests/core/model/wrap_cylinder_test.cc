@@ -28,7 +28,7 @@ struct SegmentCase {
 };
 
 WrapCylinder makeCase(const SegmentCase& c) {
-  WrapCylinderSpec spec;
+  WrapObjectSpec spec;
   spec.name = c.name;
   spec.radius = 0.02;
   spec.length = c.length;
@@ -254,7 +254,7 @@ TEST(WrapCylinder, TangentsContinueTheHelix) {
 }
 
 TEST(WrapCylinder, UnknownQuadrantAndRadiusAreRefused) {
-  WrapCylinderSpec spec;
+  WrapObjectSpec spec;
   spec.name = "w";
   spec.radius = 0.02;
   spec.quadrant = "+w";

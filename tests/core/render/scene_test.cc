@@ -64,7 +64,7 @@ TEST_F(Scene, TubesRunThroughEveryVertexOfTheirPaths) {
 // Distance of a point in ground from the axis of a cylinder on a body.
 double findAxisDistance(const Subject& subject,
                         BodyIndex body,
-                        const WrapCylinderSpec& cylinder,
+                        const WrapObjectSpec& cylinder,
                         const Eigen::Vector3d& p_G) {
   const Eigen::Matrix3d R_BW = (Eigen::AngleAxisd(cylinder.rotation.x(), Eigen::Vector3d::UnitX()) *
                                 Eigen::AngleAxisd(cylinder.rotation.y(), Eigen::Vector3d::UnitY()) *
@@ -81,7 +81,7 @@ TEST_F(Scene, WrappedTubesFollowTheirCylinders) {
   int wrapped = 0;
   for (std::size_t b = 0; b < spec().bodies.size(); ++b) {
     const BodyIndex body(static_cast<int>(b));
-    for (const WrapCylinderSpec& cylinder : spec().bodies[b].wrap_cylinders) {
+    for (const WrapObjectSpec& cylinder : spec().bodies[b].wrap_objects) {
       for (std::size_t m = 0; m < spec().muscles.size(); ++m) {
         const MuscleSpec& muscle = spec().muscles[m];
         if (muscle.wraps.size() != 1 || muscle.wraps[0].wrap_object != cylinder.name) continue;

@@ -18,12 +18,12 @@ ModelSpec makeRod() {
   rod.mass = 2;
   rod.mass_center = {0, -0.2, 0.1};
   rod.inertia = {0.05, 0.01, 0.05, 0, 0, 0};
-  WrapCylinderSpec wrap;
+  WrapObjectSpec wrap;
   wrap.name = "condyle";
   wrap.translation = {0.3, 0.1, 0.2};
   wrap.radius = 0.02;
   wrap.length = 0.1;
-  rod.wrap_cylinders.push_back(wrap);
+  rod.wrap_objects.push_back(wrap);
   rod.meshes.push_back({"rod.vtp", {0.85, 0.85, 0.85}, {0, 0.1, 0}, {0, 0, 0}});
   spec.bodies.push_back(rod);
   JointSpec joint;
@@ -69,7 +69,7 @@ TEST(ApplyScale, BodyFixedPointsStretchWithTheirBody) {
 
 TEST(ApplyScale, WrapCylinderTakesTheMeanOfItsRadialFactors) {
   const ModelSpec scaled = applyScaleFactors(makeRod(), {{"rod", {1.1, 1.3, 1.5}}}, kPreserved);
-  const WrapCylinderSpec& wrap = scaled.bodies[0].wrap_cylinders[0];
+  const WrapObjectSpec& wrap = scaled.bodies[0].wrap_objects[0];
   EXPECT_NEAR(wrap.radius, 0.02 * 1.2, tol(1e-15));
   EXPECT_NEAR(wrap.length, 0.1 * 1.5, tol(1e-15));
 }
@@ -108,7 +108,7 @@ TEST(ApplyScale, TranslationFunctionsOfACustomJointTakeTheParentsFactors) {
   ModelSpec spec = makeRod();
   BodySpec tip = spec.bodies[0];
   tip.name = "tip";
-  tip.wrap_cylinders.clear();
+  tip.wrap_objects.clear();
   spec.bodies.push_back(tip);
   JointSpec joint;
   joint.name = "slide";

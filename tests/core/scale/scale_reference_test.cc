@@ -138,11 +138,11 @@ void expectBodies(const ModelSpec& model, const ModelSpec& reference) {
     for (std::size_t i = 0; i < 6; ++i) {
       EXPECT_NEAR(body.inertia[i], expected.inertia[i], tol(1e-12)) << body.name << " " << i;
     }
-    for (std::size_t i = 0; i < expected.wrap_cylinders.size(); ++i) {
-      const WrapCylinderSpec& wrap = expected.wrap_cylinders[i];
-      EXPECT_NEAR(body.wrap_cylinders[i].radius, wrap.radius, tol(1e-12)) << wrap.name;
-      EXPECT_NEAR(body.wrap_cylinders[i].length, wrap.length, tol(1e-12)) << wrap.name;
-      EXPECT_NEAR((body.wrap_cylinders[i].translation - wrap.translation).norm(), 0, tol(1e-12))
+    for (std::size_t i = 0; i < expected.wrap_objects.size(); ++i) {
+      const WrapObjectSpec& wrap = expected.wrap_objects[i];
+      EXPECT_NEAR(body.wrap_objects[i].radius, wrap.radius, tol(1e-12)) << wrap.name;
+      EXPECT_NEAR(body.wrap_objects[i].length, wrap.length, tol(1e-12)) << wrap.name;
+      EXPECT_NEAR((body.wrap_objects[i].translation - wrap.translation).norm(), 0, tol(1e-12))
           << wrap.name;
     }
   }
