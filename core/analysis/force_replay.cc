@@ -128,6 +128,7 @@ ForceReplay::Powers ForceReplay::calcPowers() {
     (across_joint ? powers.actuators : powers.residuals) +=
         actuator_forces_[k] * actuator_rates_[k];
   }
+  powers.actuators += state_.calcPassivePower();
   for (const BodyWrench& load : loads_) {
     powers.ground += load.wrench.dot(state_.calcBodyVelocity(load.body));
   }

@@ -39,7 +39,7 @@ class ForceReplay {
   struct Powers {
     double muscles = 0;    ///< -F dL/dt
     double residuals = 0;  ///< point and torque actuators
-    double actuators = 0;  ///< actuators of coordinates
+    double actuators = 0;  ///< actuators of coordinates and passive forces
     double ground = 0;     ///< external loads
   };
   Powers calcPowers();

@@ -12,7 +12,7 @@ namespace gaitmill {
 namespace {
 
 // Oldest and newest document layout known (spec/model.md 9).
-constexpr int kOldestVersion = 30000;
+constexpr int kOldestVersion = 20302;
 constexpr int kNewestVersion = 40600;
 // Below this, names may hold blanks, which the conversion removes.
 constexpr int kFirstVersionWithoutBlanks = 30500;

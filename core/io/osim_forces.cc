@@ -57,25 +57,6 @@ void readWrapSize(const OsimElement& element, WrapObjectSpec& spec) {
   }
 }
 
-WrapObjectSpec readWrapObject(const OsimElement& element) {
-  WrapObjectSpec spec;
-  spec.name = element.requireName();
-  spec.rotation = element.vector3("xyz_body_rotation", Vector3d::Zero());
-  spec.translation = element.vector3("translation", Vector3d::Zero());
-  spec.quadrant = element.text("quadrant", "all");
-  if (spec.quadrant.empty() || spec.quadrant == "Unassigned") {
-    spec.quadrant = "all";
-  }
-  if (std::find(kQuadrants.begin(), kQuadrants.end(), spec.quadrant) == kQuadrants.end()) {
-    element.property("quadrant")
-        .fail(ErrorCode::kModelValue,
-              "quadrant is 'all' or an axis with a sign, found '" + spec.quadrant + "'");
-  }
-  spec.active = element.boolean("active", true);
-  readWrapSize(element, spec);
-  return spec;
-}
-
 /// One number of a muscle with the interval it must lie in.
 struct MuscleField {
   const char* tag;
@@ -292,10 +273,12 @@ void readMotion(const OsimElement& point,
   struct Component {
     const char* coordinate;
     const char* function;
+    const char* old_function;  ///< in documents below 30000
   };
-  constexpr std::array<Component, 3> kComponents = {{{"x_coordinate", "x_location"},
-                                                     {"y_coordinate", "y_location"},
-                                                     {"z_coordinate", "z_location"}}};
+  constexpr std::array<Component, 3> kComponents = {
+      {{"x_coordinate", "x_location", "XAttachment"},
+       {"y_coordinate", "y_location", "YAttachment"},
+       {"z_coordinate", "z_location", "ZAttachment"}}};
   spec.kind = PathPointSpec::Kind::kMoving;
   for (std::size_t axis = 0; axis < kComponents.size(); ++axis) {
     const std::string name = readPointCoordinate(point, kComponents[axis].coordinate, joints);
@@ -305,7 +288,11 @@ void readMotion(const OsimElement& point,
                      "'; a moving point follows one coordinate");
     }
     spec.coordinate = name;
-    if (const OsimElement function = point.objectProperty(kComponents[axis].function, {})) {
+    OsimElement function = point.objectProperty(kComponents[axis].function, {});
+    if (!function) {
+      function = point.objectProperty(kComponents[axis].old_function, {});
+    }
+    if (function) {
       spec.location_functions[axis] = readFunction(function, point);
     }
   }
@@ -424,12 +411,23 @@ void readTorqueActuator(const OsimElement& actuator, const OsimFrames& frames, A
 
 }  // namespace
 
-std::vector<WrapObjectSpec> readWrapObjects(const OsimElement& owner) {
-  std::vector<WrapObjectSpec> objects;
-  for (const OsimElement& element : owner.objectsOf("WrapObjectSet")) {
-    objects.push_back(readWrapObject(element));
+WrapObjectSpec readWrapObject(const OsimElement& element) {
+  WrapObjectSpec spec;
+  spec.name = element.requireName();
+  spec.rotation = element.vector3("xyz_body_rotation", Vector3d::Zero());
+  spec.translation = element.vector3("translation", Vector3d::Zero());
+  spec.quadrant = element.text("quadrant", "all");
+  if (spec.quadrant.empty() || spec.quadrant == "Unassigned") {
+    spec.quadrant = "all";
   }
-  return objects;
+  if (std::find(kQuadrants.begin(), kQuadrants.end(), spec.quadrant) == kQuadrants.end()) {
+    element.property("quadrant")
+        .fail(ErrorCode::kModelValue,
+              "quadrant is 'all' or an axis with a sign, found '" + spec.quadrant + "'");
+  }
+  spec.active = element.boolean("active", true);
+  readWrapSize(element, spec);
+  return spec;
 }
 
 MuscleSpec readMuscle(const OsimElement& muscle,

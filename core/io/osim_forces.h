@@ -11,8 +11,8 @@ namespace gaitmill {
 
 // Wrap objects, muscles and ideal actuators of a model document. Internal to core/io.
 
-/// Wrap objects of a body or of ground. @throws Error kModelUnsupported for tori, kModelValue
-std::vector<WrapObjectSpec> readWrapObjects(const OsimElement& owner);
+/// @throws Error kModelUnsupported for tori, kModelValue
+WrapObjectSpec readWrapObject(const OsimElement& element);
 
 /// True for the types of muscles that can be simulated.
 bool isMuscle(const OsimElement& force);

@@ -26,7 +26,8 @@ struct JointType {
   std::size_t coordinate_count;
 };
 constexpr std::size_t kAnyCount = 99;
-constexpr std::array<JointType, 7> kJointTypes = {{
+constexpr std::size_t kFreeCount = 6;
+constexpr std::array<JointType, 9> kJointTypes = {{
     {"WeldJoint", JointSpec::Kind::kWeld, 0},
     {"PinJoint", JointSpec::Kind::kPin, 1},
     {"SliderJoint", JointSpec::Kind::kSlider, 1},
@@ -34,6 +35,9 @@ constexpr std::array<JointType, 7> kJointTypes = {{
     {"PlanarJoint", JointSpec::Kind::kPlanar, 3},
     {"GimbalJoint", JointSpec::Kind::kGimbal, 3},
     {"CustomJoint", JointSpec::Kind::kCustom, kAnyCount},
+    // The same angles; only OpenSim's speeds are not their rates (spec/model.md 4).
+    {"BallJoint", JointSpec::Kind::kGimbal, 3},
+    {"FreeJoint", JointSpec::Kind::kCustom, kFreeCount},
 }};
 
 const JointType& findJointType(const OsimElement& joint) {
@@ -154,6 +158,18 @@ std::vector<CoordinateSpec> readCoordinates(const OsimElement& joint) {
   return specs;
 }
 
+OsimElement findAxisFunction(const OsimElement& axis) {
+  return axis.objectProperty("function",
+                             {"Constant",
+                              "LinearFunction",
+                              "PolynomialFunction",
+                              "SimmSpline",
+                              "NaturalCubicSpline",
+                              "natCubicSpline",
+                              "PiecewiseLinearFunction",
+                              "MultiplierFunction"});
+}
+
 TransformAxisSpec readAxis(const OsimElement& element, const Vector3d& default_axis) {
   TransformAxisSpec axis;
   axis.axis = element.vector3("axis", default_axis);
@@ -172,15 +188,7 @@ TransformAxisSpec readAxis(const OsimElement& element, const Vector3d& default_a
   if (!coordinates.empty()) {
     axis.coordinate = coordinates.front();
   }
-  const OsimElement function = element.objectProperty("function",
-                                                      {"Constant",
-                                                       "LinearFunction",
-                                                       "PolynomialFunction",
-                                                       "SimmSpline",
-                                                       "NaturalCubicSpline",
-                                                       "natCubicSpline",
-                                                       "PiecewiseLinearFunction",
-                                                       "MultiplierFunction"});
+  const OsimElement function = findAxisFunction(element);
   if (function) {
     axis.function = readFunction(function, element);
   }
@@ -312,6 +320,20 @@ FunctionSpec readFunction(const OsimElement& function, const OsimElement& contex
   return readFunctionAt(function, context, 0);
 }
 
+std::vector<OsimElement> findIdleAxes(const OsimElement& joint) {
+  std::vector<OsimElement> idle;
+  for (const OsimElement& axis : joint.property("SpatialTransform").children()) {
+    if (!axis.words("coordinates").empty() && !findAxisFunction(axis)) {
+      idle.push_back(axis);
+    }
+  }
+  return idle;
+}
+
+bool hasAngularSpeeds(const OsimElement& joint) {
+  return joint.type() == "BallJoint" || joint.type() == "FreeJoint";
+}
+
 JointSpec readJoint(const OsimJoint& joint, const OsimFrames& frames) {
   const OsimElement& element = joint.element;
   const JointType& type = findJointType(element);
@@ -319,13 +341,18 @@ JointSpec readJoint(const OsimJoint& joint, const OsimFrames& frames) {
   spec.name = element.requireName();
   spec.kind = type.kind;
   spec.coordinates = readCoordinates(element);
-  if (type.kind == JointSpec::Kind::kCustom) {
+  if (type.coordinate_count == kAnyCount) {
     readSpatialTransform(element, spec);
     sortCoordinates(element, spec);
   } else if (spec.coordinates.size() != type.coordinate_count) {
     element.fail(ErrorCode::kModelElement,
                  element.describe() + " has " + std::to_string(spec.coordinates.size()) +
                      " coordinates, expected " + std::to_string(type.coordinate_count));
+  }
+  for (std::size_t i = 0; type.coordinate_count == kFreeCount && i < kFreeCount; ++i) {
+    spec.axes[i] = {spec.coordinates[i].name,
+                    Vector3d::Unit(static_cast<Eigen::Index>(i % 3)),
+                    {FunctionSpec::Kind::kLinear, {}, {1, 0}, 1}};
   }
   readJointFrames(joint, frames, spec);
   return spec;

@@ -20,9 +20,17 @@ struct OsimJoint {
 /// Joints in document order, from the JointSet or from inside the bodies.
 std::vector<OsimJoint> collectJoints(const OsimElement& model);
 
-/// @throws Error kModelUnsupported for free and ball joints and functions not listed in
-/// FunctionSpec, kModelReference, kModelValue, kModelElement
+/// Ball and free joints are read as what turns by the same angles: gimbal and custom joints.
+/// @throws Error kModelUnsupported for other joints and functions not listed in FunctionSpec,
+/// kModelReference, kModelValue, kModelElement
 JointSpec readJoint(const OsimJoint& joint, const OsimFrames& frames);
+
+/// True for joints whose speeds in OpenSim are components of angular velocity.
+bool hasAngularSpeeds(const OsimElement& joint);
+
+/// Axes of a custom joint that name a coordinate but no function, and so do not move with it;
+/// programs before OpenSim 3 took them for linear.
+std::vector<OsimElement> findIdleAxes(const OsimElement& joint);
 
 /// @param context  element to blame if `function` is null
 FunctionSpec readFunction(const OsimElement& function, const OsimElement& context);

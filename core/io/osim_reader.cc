@@ -14,6 +14,7 @@
 #include "core/io/osim_frames.h"
 #include "core/io/osim_geometry.h"
 #include "core/io/osim_joints.h"
+#include "core/io/osim_passive_forces.h"
 
 namespace gaitmill {
 
@@ -30,6 +31,25 @@ bool isContactForce(const OsimElement& force) {
   return std::find(kTypes.begin(), kTypes.end(), force.type()) != kTypes.end();
 }
 
+/// What cannot be simulated.
+struct Finding {
+  std::string type;  ///< of the element
+  std::string message;
+  Where where;
+};
+
+/// "line 12: WrapTorus 'hole': reason"
+std::string formatFinding(const Finding& finding) {
+  const std::string& element = finding.where.field;
+  std::string_view reason = finding.message;
+  if (reason.substr(0, element.size()) == element) {
+    reason.remove_prefix(element.size());
+    reason.remove_prefix(std::min(reason.find_first_not_of(": "), reason.size()));
+  }
+  return "\nline " + std::to_string(finding.where.line) + ": " + element + ": " +
+         std::string(reason);
+}
+
 /// Reads one document, in the order in which references point: bodies, joints, then what is
 /// attached to them.
 class ModelReader {
@@ -38,12 +58,21 @@ class ModelReader {
       : model_(model), warnings_(warnings) {}
 
   ModelSpec read() {
-    readHeader();
-    readBodies();
-    readJoints();
-    readConstraints();
-    readMarkers();
-    readForces();
+    try {
+      readHeader();
+      readBodies();
+      readJoints();
+      readConstraints();
+      readMarkers();
+      readForces();
+    } catch (const Error&) {
+      if (findings_.empty()) {
+        throw;
+      }
+    }
+    if (!findings_.empty()) {
+      failUnsupported();
+    }
     readGroups();
     return std::move(spec_);
   }
@@ -56,12 +85,16 @@ class ModelReader {
   void addMesh(const OsimElement& owner, BodySpec& body, MeshSpec mesh);
   void readJoints();
   void readConstraints();
+  void readConstraint(const OsimElement& element, std::set<std::string>& names);
   void readMarkers();
   void readForces();
   void readForce(const OsimElement& force);
   void readGroups();
   void addWraps(const OsimElement& owner, std::vector<WrapObjectSpec>& wraps);
   void requireNew(std::set<std::string>& names, const OsimElement& element);
+  template <class Read>
+  void collect(const OsimElement& element, Read read);
+  [[noreturn]] void failUnsupported() const;
   void warn(const OsimElement& element, const std::string& sentence);
 
   OsimElement model_;
@@ -72,7 +105,63 @@ class ModelReader {
   std::vector<std::string> wrap_objects_;
   std::size_t mesh_count_ = 0;
   std::set<std::string> force_names_;
+  std::vector<Finding> findings_;
 };
+
+/// Reads one element. What cannot be simulated is noted, so that all of it can be told at once;
+/// what else is wrong once something was noted may be its consequence, and is left.
+template <class Read>
+void ModelReader::collect(const OsimElement& element, Read read) {
+  constexpr std::size_t kMaximumFindings = 500;
+  try {
+    read();
+  } catch (const Error& error) {
+    const bool is_finding = error.code() == ErrorCode::kModelUnsupported;
+    if (!is_finding && findings_.empty()) {
+      throw;
+    }
+    if (is_finding && findings_.size() < kMaximumFindings) {
+      findings_.push_back({std::string(element.type()), error.message(), error.where()});
+    }
+  }
+}
+
+/// One line per finding, those of a type that was not named yet first: an error's text is bounded,
+/// and what is left out must not be the only one of its kind.
+void ModelReader::failUnsupported() const {
+  constexpr std::size_t kRoomForLines = Error::kMaximumText - 200;
+  std::set<std::string> types;
+  std::vector<const Finding*> order;
+  for (const Finding& finding : findings_) {
+    if (types.insert(finding.type).second) {
+      order.push_back(&finding);
+    }
+  }
+  for (const Finding& finding : findings_) {
+    if (std::find(order.begin(), order.end(), &finding) == order.end()) {
+      order.push_back(&finding);
+    }
+  }
+  std::string lines;
+  std::size_t told = 0;
+  for (const Finding* finding : order) {
+    const std::string line = formatFinding(*finding);
+    if (lines.size() + line.size() > kRoomForLines && told > 0) {
+      break;
+    }
+    lines += line;
+    ++told;
+  }
+  const std::string rest =
+      told < order.size() ? "\nand " + std::to_string(order.size() - told) + " more of these types"
+                          : "";
+  throw Error(
+      ErrorCode::kModelUnsupported,
+      std::to_string(findings_.size()) +
+          (findings_.size() == 1 ? " part of the model cannot" : " parts of the model cannot") +
+          " be simulated and would change the results if left out:" + lines + rest,
+      findings_.front().where);
+}
 
 void ModelReader::warn(const OsimElement& element, const std::string& sentence) {
   // To find a line takes a walk through the document.
@@ -94,6 +183,7 @@ void ModelReader::requireNew(std::set<std::string>& names, const OsimElement& el
 
 void ModelReader::readHeader() {
   spec_.name = model_.nameOr("");
+  spec_.document_version = model_.document().version();
   spec_.credits = model_.text("credits");
   spec_.gravity = model_.vector3("gravity", Vector3d(0, -9.80665, 0));
 }
@@ -145,7 +235,10 @@ std::string repairInertia(std::array<double, 6>& I) {
 }
 
 void ModelReader::addWraps(const OsimElement& owner, std::vector<WrapObjectSpec>& wraps) {
-  for (const WrapObjectSpec& wrap : readWrapObjects(owner)) {
+  for (const OsimElement& element : owner.objectsOf("WrapObjectSet")) {
+    WrapObjectSpec wrap;
+    wrap.name = element.requireName();
+    collect(element, [&] { wrap = readWrapObject(element); });
     if (std::find(wrap_objects_.begin(), wrap_objects_.end(), wrap.name) != wrap_objects_.end()) {
       owner.property("WrapObjectSet")
           .fail(ErrorCode::kModelDuplicateName,
@@ -218,10 +311,12 @@ void ModelReader::readBodies() {
     addWraps(ground, spec_.ground_wrap_objects);
   }
   for (const OsimElement& element : model_.objectsOf("BodySet")) {
-    if (element.type() != "Body") {
-      element.fail(ErrorCode::kModelUnsupported, element.describe() + " is not a rigid body");
-    }
-    readBody(element);
+    collect(element, [&] {
+      if (element.type() != "Body") {
+        element.fail(ErrorCode::kModelUnsupported, element.describe() + ": is not a rigid body");
+      }
+      readBody(element);
+    });
   }
   if (spec_.bodies.empty()) {
     model_.fail(ErrorCode::kModelElement, "the model has no bodies");
@@ -241,34 +336,51 @@ void ModelReader::readJoints() {
   }
   std::set<std::string> coordinates;
   for (const OsimJoint& joint : joints) {
-    spec_.joints.push_back(readJoint(joint, frames_));
-    for (const CoordinateSpec& coordinate : spec_.joints.back().coordinates) {
-      if (!coordinates.insert(coordinate.name).second) {
-        joint.element.fail(ErrorCode::kModelDuplicateName,
-                           "there is already a coordinate '" + coordinate.name + "'");
+    collect(joint.element, [&] {
+      spec_.joints.push_back(readJoint(joint, frames_));
+      if (hasAngularSpeeds(joint.element)) {
+        warn(joint.element,
+             "is moved by the rates of its angles, to which its moments belong; in OpenSim they "
+             "belong to components of its angular velocity");
       }
-    }
+      for (const OsimElement& axis : findIdleAxes(joint.element)) {
+        warn(axis, "names a coordinate but no function, and does not move with it");
+      }
+      for (const CoordinateSpec& coordinate : spec_.joints.back().coordinates) {
+        if (!coordinates.insert(coordinate.name).second) {
+          joint.element.fail(ErrorCode::kModelDuplicateName,
+                             "there is already a coordinate '" + coordinate.name + "'");
+        }
+      }
+    });
   }
-  requireTree(body_elements_, joints, spec_.joints);
+  if (findings_.empty()) {
+    requireTree(body_elements_, joints, spec_.joints);
+  }
 }
 
 void ModelReader::readConstraints() {
   std::set<std::string> names;
   for (const OsimElement& element : model_.objectsOf("ConstraintSet")) {
-    if (element.type() == "CoordinateCouplerConstraint") {
-      requireNew(names, element);
-      spec_.couplers.push_back(readCoupler(element, spec_.joints));
-      continue;
-    }
-    const bool enforced = element.has("isEnforced") ? element.boolean("isEnforced", true)
-                                                    : !element.boolean("isDisabled", false);
-    if (enforced) {
-      element.fail(
-          ErrorCode::kModelUnsupported,
-          element.describe() + ": of the constraints only coordinate couplers can be read");
-    }
-    warn(element, "is not enforced and was left out");
+    collect(element, [&] { readConstraint(element, names); });
   }
+}
+
+void ModelReader::readConstraint(const OsimElement& element, std::set<std::string>& names) {
+  if (element.type() == "CoordinateCouplerConstraint") {
+    requireNew(names, element);
+    spec_.couplers.push_back(readCoupler(element, spec_.joints));
+    return;
+  }
+  const bool enforced = element.has("isEnforced") ? element.boolean("isEnforced", true)
+                                                  : !element.boolean("isDisabled", false);
+  if (enforced) {
+    element.fail(ErrorCode::kModelUnsupported,
+                 element.describe() +
+                     ": of the constraints only coordinate couplers can be simulated here; without "
+                     "it the bodies would move otherwise");
+  }
+  warn(element, "is not enforced and was left out");
 }
 
 MarkerSpec readMarker(const OsimElement& element, const OsimFrames& frames) {
@@ -285,7 +397,7 @@ void ModelReader::readMarkers() {
   std::set<std::string> names;
   for (const OsimElement& element : model_.objectsOf("MarkerSet")) {
     requireNew(names, element);
-    spec_.markers.push_back(readMarker(element, frames_));
+    collect(element, [&] { spec_.markers.push_back(readMarker(element, frames_)); });
   }
 }
 
@@ -298,17 +410,22 @@ void ModelReader::readForce(const OsimElement& force) {
   } else if (isActuator(force)) {
     requireNew(force_names_, force);
     spec_.actuators.push_back(readActuator(force, frames_, spec_.joints));
+  } else if (isPassiveForce(force)) {
+    requireNew(force_names_, force);
+    spec_.passive_forces.push_back(readPassiveForce(force, frames_, spec_.joints));
   } else if (isContactForce(force)) {
     warn(force, "was left out: the measured ground reaction takes its place");
   } else {
     force.fail(ErrorCode::kModelUnsupported,
-               force.describe() + ": forces of this type cannot be simulated here");
+               force.describe() +
+                   ": forces of this type cannot be simulated here, and without it the muscles "
+                   "would do its work");
   }
 }
 
 void ModelReader::readForces() {
   for (const OsimElement& force : model_.objectsOf("ForceSet")) {
-    readForce(force);
+    collect(force, [&] { readForce(force); });
   }
 }
 

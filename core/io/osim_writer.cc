@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "core/base/error.h"
+#include "core/base/units.h"
 #include "core/io/number_text.h"
 
 namespace gaitmill {
@@ -584,6 +585,95 @@ void writeActuator(XmlText& xml, const ActuatorSpec& actuator) {
   xml.close();
 }
 
+void writeLimits(XmlText& xml, const PassiveForceSpec& force, bool rotational) {
+  const double unit = rotational ? kRadiansPerDegree : 1.0;
+  xml.number("upper_stiffness", force.upper_stiffness * unit);
+  xml.number("upper_limit", force.upper_limit / unit);
+  xml.number("lower_stiffness", force.lower_stiffness * unit);
+  xml.number("lower_limit", force.lower_limit / unit);
+  xml.number("damping", force.damping * unit);
+  xml.number("transition", force.transition / unit);
+}
+
+void writeBushingFrame(XmlText& xml, const FrameSpec& frame, const char* name) {
+  xml.open("PhysicalOffsetFrame", name);
+  xml.text("socket_parent", framePath(frame.body));
+  xml.numbers("translation", frame.translation);
+  xml.numbers("orientation", frame.orientation);
+  xml.close();
+}
+
+void writeBushing(XmlText& xml, const PassiveForceSpec& force) {
+  using Kind = PassiveForceSpec::Kind;
+  constexpr std::array<const char*, 6> kFunctions = {"m_x_theta_x_function",
+                                                     "m_y_theta_y_function",
+                                                     "m_z_theta_z_function",
+                                                     "f_x_delta_x_function",
+                                                     "f_y_delta_y_function",
+                                                     "f_z_delta_z_function"};
+  constexpr std::array<const char*, 6> kExpressions = {"Mx_expression",
+                                                       "My_expression",
+                                                       "Mz_expression",
+                                                       "Fx_expression",
+                                                       "Fy_expression",
+                                                       "Fz_expression"};
+  xml.text("socket_frame1", "frame1_offset");
+  xml.text("socket_frame2", "frame2_offset");
+  xml.open("frames");
+  writeBushingFrame(xml, force.frame1, "frame1_offset");
+  writeBushingFrame(xml, force.frame2, "frame2_offset");
+  xml.close();
+  if (force.kind == Kind::kBushing) {
+    xml.numbers("rotational_stiffness", force.rotational_stiffness);
+    xml.numbers("translational_stiffness", force.translational_stiffness);
+  }
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (force.kind == Kind::kFunctionBushing) {
+      writeFunction(xml, force.functions[i], kFunctions[i]);
+    } else if (force.kind == Kind::kExpressionBushing) {
+      xml.text(kExpressions[i], force.expressions[i]);
+    }
+  }
+  xml.numbers("rotational_damping", force.rotational_damping);
+  xml.numbers("translational_damping", force.translational_damping);
+}
+
+void writePassiveForce(XmlText& xml, const ModelSpec& spec, const PassiveForceSpec& force) {
+  using Kind = PassiveForceSpec::Kind;
+  switch (force.kind) {
+    case Kind::kCoordinateLimit:
+      xml.open("CoordinateLimitForce", force.name);
+      xml.text("coordinate", force.coordinate);
+      writeLimits(xml, force, findMotionKind(spec, force.coordinate) == MotionKind::kRotational);
+      break;
+    case Kind::kCoordinateSpring:
+      xml.open("SpringGeneralizedForce", force.name);
+      xml.text("coordinate", force.coordinate);
+      xml.number("stiffness", force.stiffness);
+      xml.number("rest_length", force.rest_length);
+      xml.number("viscosity", force.viscosity);
+      break;
+    case Kind::kCoordinateExpression:
+      xml.open("ExpressionBasedCoordinateForce", force.name);
+      xml.text("coordinate", force.coordinate);
+      xml.text("expression", force.expressions[0]);
+      break;
+    case Kind::kBushing:
+      xml.open("BushingForce", force.name);
+      writeBushing(xml, force);
+      break;
+    case Kind::kFunctionBushing:
+      xml.open("FunctionBasedBushingForce", force.name);
+      writeBushing(xml, force);
+      break;
+    case Kind::kExpressionBushing:
+      xml.open("ExpressionBasedBushingForce", force.name);
+      writeBushing(xml, force);
+      break;
+  }
+  xml.close();
+}
+
 void writeGroups(XmlText& xml, const ModelSpec& spec) {
   xml.open("groups");
   for (const MuscleGroupSpec& group : spec.muscle_groups) {
@@ -606,6 +696,9 @@ void writeForces(XmlText& xml, const ModelSpec& spec) {
   }
   for (const ActuatorSpec& actuator : spec.actuators) {
     writeActuator(xml, actuator);
+  }
+  for (const PassiveForceSpec& force : spec.passive_forces) {
+    writePassiveForce(xml, spec, force);
   }
   xml.close();
   writeGroups(xml, spec);

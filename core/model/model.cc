@@ -10,6 +10,7 @@
 #include "core/base/where.h"
 #include "core/math/scalar_function.h"
 #include "core/model/multibody_tree.h"
+#include "core/model/passive_forces.h"
 #include "core/model/topology.h"
 
 namespace gaitmill {
@@ -89,6 +90,7 @@ struct Model::Impl {
   std::vector<MotionKind> motion_kinds;
   std::vector<char> distal;  ///< (n_coordinates x n_bodies)
   Eigen::VectorXd default_pose;
+  std::unique_ptr<PassiveForces> passive_forces;
 
   const CoordinateSpec& coordinate(int c) const {
     const int j = topology.joint_of_coordinate[static_cast<std::size_t>(c)];
@@ -124,6 +126,7 @@ Model::Model(ModelSpec spec) : impl_(std::make_unique<Impl>()) {
           ScalarFunction(coupler.function).evaluate(impl_->default_pose[independent]).value;
     }
   }
+  impl_->passive_forces = std::make_unique<PassiveForces>(*this);
 }
 
 Model::~Model() = default;
@@ -196,7 +199,9 @@ struct ModelState::Impl {
         screws(6, m.coordinateCount()),
         subtree_inertia(static_cast<std::size_t>(m.bodyCount())),
         subtree_wrench(6, m.bodyCount()),
-        accelerations(6, m.bodyCount()) {}
+        accelerations(6, m.bodyCount()),
+        passive_tau(m.coordinateCount()),
+        passive_wrenches(6, m.bodyCount()) {}
 
   const Model& model;
   std::unique_ptr<MultibodyTree::State> tree_state;
@@ -208,9 +213,11 @@ struct ModelState::Impl {
   mutable std::vector<SpatialInertia> subtree_inertia;
   Matrix6X subtree_wrench;
   Matrix6X accelerations;
+  Eigen::VectorXd passive_tau;
+  Matrix6X passive_wrenches;
 
-  /// Sets subtree_wrench to what gravity and external loads put on each body alone.
-  void loadBodies(const std::vector<BodyWrench>& external) {
+  /// Sets subtree_wrench to what gravity, external loads and passive forces put on each body alone.
+  void loadBodies(const ModelState& state, const std::vector<BodyWrench>& external) {
     const ModelSpec& spec = model.spec();
     for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
       const Eigen::Vector3d weight = spec.bodies[b].mass * spec.gravity;
@@ -223,6 +230,7 @@ struct ModelState::Impl {
         subtree_wrench.col(load.body.value()) += load.wrench;
       }
     }
+    model.impl_->passive_forces->addBodyWrenches(state, subtree_wrench);
   }
 
   const Topology& topology() const { return model.impl_->topology; }
@@ -288,7 +296,7 @@ void ModelState::calcInverseDynamics(const Eigen::Ref<const Eigen::VectorXd>& ud
   impl_->model.impl_->tree->calcInertialForces(*impl_->tree_state, udot, tau);
 
   // Gravity and external wrenches, summed over subtrees from the tips inward, then projected.
-  impl_->loadBodies(external);
+  impl_->loadBodies(*this, external);
   const Topology& topology = impl_->topology();
   for (auto j = topology.outward.rbegin(); j != topology.outward.rend(); ++j) {
     const Topology::Joint& joint = topology.joints[static_cast<std::size_t>(*j)];
@@ -301,12 +309,29 @@ void ModelState::calcInverseDynamics(const Eigen::Ref<const Eigen::VectorXd>& ud
       impl_->subtree_wrench.col(joint.parent.value()) += wrench;
     }
   }
+  if (!impl_->model.impl_->passive_forces->empty()) {
+    impl_->passive_tau.setZero();
+    impl_->model.impl_->passive_forces->addGeneralizedForces(*this, impl_->passive_tau);
+    tau -= impl_->passive_tau;
+  }
+}
+
+double ModelState::calcPassivePower() {
+  impl_->passive_tau.setZero();
+  impl_->passive_wrenches.setZero();
+  impl_->model.impl_->passive_forces->addGeneralizedForces(*this, impl_->passive_tau);
+  impl_->model.impl_->passive_forces->addBodyWrenches(*this, impl_->passive_wrenches);
+  double power = impl_->passive_tau.dot(impl_->u);
+  for (int b = 0; b < impl_->model.bodyCount(); ++b) {
+    power += impl_->passive_wrenches.col(b).dot(calcBodyVelocity(BodyIndex(b)));
+  }
+  return power;
 }
 
 void ModelState::calcJointWrenches(const Eigen::Ref<const Eigen::VectorXd>& udot,
                                    const std::vector<BodyWrench>& external,
                                    Matrix6X& wrenches) {
-  impl_->loadBodies(external);
+  impl_->loadBodies(*this, external);
   impl_->model.impl_->tree->calcAccelerations(*impl_->tree_state, udot, impl_->accelerations);
   const ModelSpec& spec = impl_->model.spec();
   wrenches.resize(6, impl_->model.bodyCount());

@@ -72,7 +72,8 @@ class Model {
 
 /// Kinematics and dynamics of a Model at one pose and speed. One per thread. Sizes its own memory
 /// in the constructor; what is allocated later, Simbody allocates. Speeds are the coordinates' time
-/// derivatives. Constraints (couplers, locks) play no role here: see FreeCoordinates.
+/// derivatives. Constraints (couplers, locks) play no role here: see FreeCoordinates. The model's
+/// passive forces (core/model/passive_forces.h) act wherever forces are computed here.
 class ModelState {
  public:
   explicit ModelState(const Model& model);  ///< keeps a reference to the model
@@ -105,7 +106,7 @@ class ModelState {
   Vector6 calcBodyVelocity(BodyIndex body) const;
 
   /// Generalized force that motion needs on the unconstrained tree (spec/id.md 1):
-  ///   tau = M(q) udot + C(q,u) - G(q) - sum J^T F_ext           (n_coordinates) [N.m|N]
+  ///   tau = M(q) udot + C(q,u) - G(q) - sum J^T F_ext - passive  (n_coordinates) [N.m|N]
   /// Needs setMotion. With udot = 0 this is the bias force.
   void calcInverseDynamics(const Eigen::Ref<const Eigen::VectorXd>& udot,
                            const std::vector<BodyWrench>& external,
@@ -130,6 +131,10 @@ class ModelState {
 
   /// Generalized forces of a wrench on one body: adds J^T F to tau. Needs setPose.
   void addWrench(const BodyWrench& wrench, Eigen::Ref<Eigen::VectorXd> tau) const;
+
+  /// Power of the model's passive forces [W]: below 0 while they store or take up energy. Needs
+  /// setMotion.
+  double calcPassivePower();
 
   double calcKineticEnergy() const;        ///< [J], needs setMotion
   double calcPotentialEnergy() const;      ///< [J] of gravity, zero at height 0

@@ -207,6 +207,12 @@ ModelSpec applyScaleFactors(const ModelSpec& generic,
       scalePoint(map.at(point.body), point);
     }
   }
+  for (PassiveForceSpec& force : scaled.passive_forces) {
+    if (!force.frame1.body.empty()) {
+      stretch(map.at(force.frame1.body), force.frame1.translation);
+      stretch(map.at(force.frame2.body), force.frame2.translation);
+    }
+  }
   scaleMuscles(generic, scaled);
   return scaled;
 }

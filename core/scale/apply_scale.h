@@ -15,7 +15,7 @@ enum class MassDistribution { kPreserved, kFollowsVolume };
 /// parent body's factors along their axis; wrap cylinders take the mean of their two radial
 /// factors; a body stretched unevenly takes the inertia of a stretched solid cylinder; optimal
 /// fiber and tendon slack lengths follow the length of their path in the default pose. Maximal
-/// forces, pennation, curves, ranges and default values stay.
+/// forces, pennation, curves, ranges, default values, stiffnesses and damping stay.
 /// @param factors  bodies that are not named keep their size
 /// @throws Error kModelReference for an unknown body, kModelUnsupported for a coupler that drives a
 ///   translation (its scale would be ambiguous)

@@ -412,10 +412,10 @@ TEST(MusclePathPoints, ConditionalPointIsPartOfThePathInsideItsRange) {
 // at the point before.
 TEST(MusclePathPoints, WrapRangeEndsAtTheLastPointThatIsPartOfThePath) {
   ModelSpec spec = makePendulumWithPath({"ground", {-0.3, -0.1, 0}});
-  WrapCylinderSpec cylinder;
+  WrapObjectSpec cylinder;
   cylinder.name = "rod";
   cylinder.radius = 0.05;
-  spec.ground_wrap_cylinders = {cylinder};
+  spec.ground_wrap_objects = {cylinder};
   PathPointSpec via{"ground", {0.2, 0.01, 0}};
   via.kind = PathPointSpec::Kind::kConditional;
   via.coordinate = "angle";
