@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -100,10 +101,31 @@ json renderWhere(const Where& where, ErrorCode code) {
   return object.empty() ? json{{"field", findUsualPlace(code)}} : object;
 }
 
+// The parts of a model that cannot be simulated, from the lines "line N: element: reason" of the
+// message, which passes between processes as it is.
+json listUnsupported(const std::string& message) {
+  constexpr std::string_view kPrefix = "line ";
+  json list = json::array();
+  std::size_t at = message.find('\n');
+  while (at != std::string::npos) {
+    const std::size_t end = std::min(message.find('\n', at + 1), message.size());
+    const std::string line = message.substr(at + 1, end - at - 1);
+    const std::size_t number_end = line.find(": ");
+    const std::size_t element_end = line.find(": ", number_end + 2);
+    if (line.rfind(kPrefix, 0) == 0 && element_end != std::string::npos) {
+      list.push_back({{"line", std::atoi(line.c_str() + kPrefix.size())},
+                      {"element", line.substr(number_end + 2, element_end - number_end - 2)},
+                      {"reason", line.substr(element_end + 2)}});
+    }
+    at = end == message.size() ? std::string::npos : end;
+  }
+  return list;
+}
+
 json makeProblem(const Error& error) {
   const ErrorCode code = error.code();
   const bool is_ours = isOurFault(code);
-  return {
+  json problem = {
       {"type", "/problems/" + std::string(codeName(code))},
       {"title", problemTitle(code)},
       {"status", httpStatus(code)},
@@ -112,6 +134,13 @@ json makeProblem(const Error& error) {
       {"where", renderWhere(error.where(), code)},
       {"fix", codeFix(code)},
       {"context", is_ours ? std::vector<std::string>{} : error.context()}};
+  if (code == ErrorCode::kModelUnsupported) {
+    json list = listUnsupported(error.message());
+    if (!list.empty()) {
+      problem["unsupported"] = std::move(list);
+    }
+  }
+  return problem;
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ std::string problemTitle(ErrorCode code);
 
 /// The problem details of an error (RFC 9457): {"type": "/problems/CODE", "title", "status",
 /// "detail", "instance", "code", "where", "fix", "context"}. `where` has at least one member. For
-/// faults of our own the detail is a fixed sentence: the message is for the log.
+/// faults of our own the detail is a fixed sentence: the message is for the log. A model that
+/// cannot be simulated adds "unsupported": an array of {"line", "element", "reason"}.
 /// @param request_id  "req_…", which becomes the instance; empty leaves that out
 std::string renderProblem(const Error& error, const std::string& request_id);
 

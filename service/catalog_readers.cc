@@ -34,12 +34,39 @@ json listCoordinates(const ModelSpec& model) {
   return names;
 }
 
+const char* muscleKindName(MuscleKind kind) {
+  switch (kind) {
+    case MuscleKind::kMillard2012:
+      return "millard_2012";
+    case MuscleKind::kThelen2003:
+      return "thelen_2003";
+    case MuscleKind::kSchutte1993:
+      return "schutte_1993";
+  }
+  return "millard_2012";
+}
+
+json countMuscleKinds(const ModelSpec& model) {
+  json kinds = json::object();
+  for (const MuscleSpec& muscle : model.muscles) {
+    json& count = kinds[muscleKindName(muscle.kind)];
+    count = count.is_null() ? 1 : count.get<int>() + 1;
+  }
+  return kinds;
+}
+
 json makeCounts(const ModelSpec& model) {
   const ModelCounts counts = countModel(model);
   return {{"bodies", counts.bodies},
           {"joints", counts.joints},
           {"coordinates", counts.coordinates},
           {"muscles", counts.muscles},
+          {"muscle_kinds", countMuscleKinds(model)},
+          {"wrap_objects",
+           {{"cylinder", counts.wrap_cylinders},
+            {"sphere", counts.wrap_spheres},
+            {"ellipsoid", counts.wrap_ellipsoids}}},
+          {"passive_forces", counts.passive_forces},
           {"actuators", counts.actuators},
           {"markers", counts.markers}};
 }
@@ -50,6 +77,7 @@ std::string summarizeModel(const InputFile& document) {
   std::vector<std::string> warnings;
   const ModelSpec model = readOsim(document.bytes, document.name, &warnings);
   return api::dumpJson({{"name", model.name},
+                        {"document_version", model.document_version},
                         {"total_mass_kg", model.calcTotalMass()},
                         {"counts", makeCounts(model)},
                         {"bodies", listNames(model.bodies)},

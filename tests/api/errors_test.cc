@@ -52,6 +52,20 @@ TEST(RenderProblem, SaysPlaceAndContext) {
       "context": ["reading markers"]})"));
 }
 
+TEST(RenderProblem, ListsWhatAModelHasThatCannotBeSimulated) {
+  const Error error(ErrorCode::kModelUnsupported,
+                    "2 parts of the model cannot be simulated:"
+                    "\nline 12: WrapTorus 'hole': no rigid surface"
+                    "\nline 30: Ligament 'acl': not known: at all\nand 3 more of these types",
+                    {"knee.osim", 12, 5, "WrapTorus 'hole'"});
+  EXPECT_EQ(json::parse(renderProblem(error, "req_1"))["unsupported"], json::parse(R"([
+      {"line": 12, "element": "WrapTorus 'hole'", "reason": "no rigid surface"},
+      {"line": 30, "element": "Ligament 'acl'", "reason": "not known: at all"}])"));
+  EXPECT_FALSE(
+      json::parse(renderProblem(Error(ErrorCode::kModelUnsupported, "a pair of shoes"), "req_1"))
+          .contains("unsupported"));
+}
+
 TEST(RenderProblem, KeepsOurOwnFaultsToTheLog) {
   for (const ErrorCode code :
        {ErrorCode::kStorage, ErrorCode::kInternal, ErrorCode::kFileNotFound}) {

@@ -177,6 +177,35 @@ TEST(Product, CancelEndsARunningJobAndItsSolver) {
   service.client().waitForState(id, {"cancelled"});
 }
 
+// A user learns at once of all that keeps a model from being simulated.
+TEST(Product, ModelsAreRefusedWithAllThatCannotBeSimulated) {
+  const TemporaryFolder folder;
+  const ProductService service(folder);
+  std::string model = readBytes("models/rajagopal2016/rajagopal2016.osim");
+  const std::size_t at = model.find("<objects>", model.find("<ForceSet"));
+  ASSERT_NE(at, std::string::npos);
+  std::string refused = model;
+  refused.insert(at + std::string("<objects>").size(),
+                 "\n<Ligament name=\"acl\" />\n<PathSpring name=\"band\" />");
+  const ClientReply reply = service.client().post("/v1/models?name=knee.osim", refused);
+  ASSERT_EQ(reply.status, 422) << reply.body;
+  EXPECT_EQ(reply.json()["code"], "model.unsupported");
+  const auto& unsupported = reply.json()["unsupported"];
+  ASSERT_EQ(unsupported.size(), 2U) << reply.body;
+  EXPECT_EQ(unsupported[0]["element"], "Ligament 'acl'");
+  EXPECT_EQ(unsupported[1]["element"], "PathSpring 'band'");
+  EXPECT_EQ(unsupported[1]["line"], unsupported[0]["line"].get<int>() + 1);
+  EXPECT_FALSE(unsupported[0]["reason"].get<std::string>().empty());
+
+  const ClientReply accepted = service.client().post("/v1/models?name=knee.osim", model);
+  ASSERT_EQ(accepted.status, 201) << accepted.body;
+  const auto& summary = accepted.json()["summary"];
+  EXPECT_EQ(summary["document_version"], 40000);
+  EXPECT_EQ(summary["counts"]["muscle_kinds"]["millard_2012"], 80);
+  EXPECT_EQ(summary["counts"]["wrap_objects"]["cylinder"], 40);
+  EXPECT_EQ(summary["counts"]["passive_forces"], 0);
+}
+
 TEST(Product, SettingsAreRefusedWhenTheyAreSubmitted) {
   const TemporaryFolder folder;
   ProductService service(folder);
