@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/base/units.h"
+#include "tests/support/simple_models.h"
 #include "tests/support/tolerance.h"
 
 namespace gaitmill {
@@ -141,6 +143,38 @@ TEST(ApplyScale, UnknownBodyIsRefused) {
     EXPECT_EQ(error.code(), ErrorCode::kModelReference);
     EXPECT_EQ(error.where().field, "femur");
   }
+}
+
+// Every radius grows with its own axis, as the body stretches it.
+TEST(ApplyScale, SpheresAndEllipsoidsGrowWithTheirAxes) {
+  ModelSpec spec = makePendulum(1.0, 0.5);
+  WrapObjectSpec ball;
+  ball.name = "ball";
+  ball.kind = WrapObjectSpec::Kind::kSphere;
+  ball.radius = 0.03;
+  WrapObjectSpec egg;
+  egg.name = "egg";
+  egg.kind = WrapObjectSpec::Kind::kEllipsoid;
+  egg.semi_axes = {0.01, 0.02, 0.03};
+  egg.rotation = {0, 0, kPi / 2};  // its x along the body's y
+  egg.translation = {0.1, 0.2, 0.3};
+  spec.bodies[0].wrap_objects = {ball, egg};
+  PassiveForceSpec bushing;
+  bushing.name = "bushing";
+  bushing.kind = PassiveForceSpec::Kind::kBushing;
+  bushing.frame1 = {"ground", {1, 1, 1}, {0, 0, 0}};
+  bushing.frame2 = {"bob", {0.1, 0.2, 0.3}, {0, 0, 0}};
+  spec.passive_forces = {bushing};
+  const ModelSpec scaled =
+      applyScaleFactors(spec, {{"bob", {1.1, 1.2, 1.3}}}, MassDistribution::kPreserved);
+  const std::vector<WrapObjectSpec>& wraps = scaled.bodies[0].wrap_objects;
+  EXPECT_NEAR(wraps[0].radius, 0.03 * 1.2, tol(1e-15));
+  EXPECT_LT((wraps[1].semi_axes - Eigen::Vector3d(0.012, 0.022, 0.039)).norm(), tol(1e-15));
+  EXPECT_LT((wraps[1].translation - Eigen::Vector3d(0.11, 0.24, 0.39)).norm(), tol(1e-15));
+  EXPECT_EQ(scaled.passive_forces[0].frame1.translation, Eigen::Vector3d(1, 1, 1));
+  EXPECT_LT(
+      (scaled.passive_forces[0].frame2.translation - Eigen::Vector3d(0.11, 0.24, 0.39)).norm(),
+      tol(1e-15));
 }
 
 }  // namespace
