@@ -232,10 +232,17 @@ std::optional<FunctionSpec> readCurve(const OsimElement& muscle, const char* tag
 void readSchutte(const OsimElement& muscle, MuscleSpec& spec) {
   const double time_scale = readField(muscle, {"time_scale", 0, false, 0.1});
   spec.max_contraction_velocity = 1 / time_scale;
-  spec.fiber_damping = readField(muscle, {"damping", 0, false, 0.1});
+  spec.fiber_damping = readField(muscle, {"damping", 0, true, 0.1});
   spec.minimum_activation = 0;
   spec.schutte.excitation_rate = readField(muscle, {"activation1", 0, true, 7.667}) / time_scale;
   spec.schutte.activation_rate = readField(muscle, {"activation2", 0, true, 1.459854}) / time_scale;
+  // Nothing in a muscle is that fast or slow; the bounds keep the quotients numbers.
+  constexpr double kExtreme = 1e9;
+  if (time_scale < 1 / kExtreme || time_scale > kExtreme ||
+      spec.schutte.excitation_rate > kExtreme || spec.schutte.activation_rate > kExtreme) {
+    muscle.fail(ErrorCode::kMuscleParameter,
+                muscle.describe() + ": time_scale, activation1 or activation2 is out of range");
+  }
   spec.schutte.active_force_length = readCurve(muscle, "active_force_length_curve");
   spec.schutte.passive_force_length = readCurve(muscle, "passive_force_length_curve");
   spec.schutte.tendon_force_strain = readCurve(muscle, "tendon_force_length_curve");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "core/base/units.h"
@@ -42,8 +43,8 @@ TimeSeries makeCell(const std::string& label, double value) {
   return table;
 }
 
-TimeSeries calcReaction(const Swing& swing) {
-  const Model model(makeDrivenPendulum());
+TimeSeries calcReaction(const Swing& swing, const ModelSpec& spec = makeDrivenPendulum()) {
+  const Model model(spec);
   ActuatorSpec motor;
   motor.name = "motor";
   motor.coordinate = "angle";
@@ -87,6 +88,28 @@ TEST(JointReactions, AMuscleAcrossTheJointCompressesIt) {
   EXPECT_NEAR(read(reaction, "bob_fy"), kMass * kGravity - 100, tol(1e-12));
   EXPECT_NEAR(read(reaction, "bob_fx"), 0, tol(1e-13));
   EXPECT_NEAR(read(reaction, "bob_mz"), 0, tol(1e-13));
+}
+
+// The bob's point slides along the bob as the pin turns. Tension pulls the bob where the point is;
+// what it does through the sliding is a torque across the pin, which the joint transmits like a
+// motor's.
+TEST(JointReactions, HoldTheWorkOfAMovingPathPoint) {
+  constexpr double kSlide = 0.05;  // of the point along x per angle [m]
+  ModelSpec spec = makeDrivenPendulum();
+  PathPointSpec& point = spec.muscles[0].path[1];
+  point.kind = PathPointSpec::Kind::kMoving;
+  point.coordinate = "angle";
+  point.location_functions[0] = {FunctionSpec::Kind::kLinear, {}, {kSlide, 0}, 1};
+  point.location_functions[1] = {FunctionSpec::Kind::kConstant, {}, {-kLength}, 1};
+  const double q = 0.7;
+  const double tension = 100;
+  const TimeSeries reaction = calcReaction({q, 0, 0, tension}, spec);
+  const Eigen::Rotation2Dd turn(q);
+  const Eigen::Vector2d pull =
+      (Eigen::Vector2d(0, 0.1) - turn * Eigen::Vector2d(kSlide * q, -kLength)).normalized();
+  const double torque = tension * (turn * Eigen::Vector2d(kSlide, 0)).dot(pull);
+  EXPECT_GT(std::abs(torque), 0.1);
+  EXPECT_NEAR(read(reaction, "bob_mz"), torque, tol(1e-12));
 }
 
 TEST(JointReactions, ColumnsAreNamedAfterJointBodyAndFrame) {

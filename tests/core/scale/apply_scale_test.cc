@@ -135,6 +135,32 @@ TEST(ApplyScale, TranslationFunctionsOfACustomJointTakeTheParentsFactors) {
   EXPECT_EQ(scaled.joints[1].axes[0].function.scale, 1);
 }
 
+// A moving point stretches with its body at every angle, as a fixed one would.
+TEST(ApplyScale, MovingPointsStretchAxisByAxisAndKeepTheirCoordinate) {
+  ModelSpec spec = makeRod();
+  PathPointSpec& point = spec.muscles[0].path[1];
+  point.kind = PathPointSpec::Kind::kMoving;
+  point.coordinate = "angle";
+  point.location_functions[0] = {FunctionSpec::Kind::kLinear, {}, {1, 0}, 1};
+  point.location_functions[1] = {FunctionSpec::Kind::kConstant, {}, {-0.4}, 0.5};
+  PathPointSpec via{"rod", {0.1, -0.2, 0.3}};
+  via.kind = PathPointSpec::Kind::kConditional;
+  via.coordinate = "angle";
+  via.range_min = -0.3;
+  via.range_max = 0.2;
+  spec.muscles[0].path.insert(spec.muscles[0].path.begin() + 1, via);
+  const ModelSpec scaled = applyScaleFactors(spec, {{"rod", {2, 3, 4}}}, kPreserved);
+  const PathPointSpec& moved = scaled.muscles[0].path[2];
+  EXPECT_EQ(moved.coordinate, "angle");
+  EXPECT_EQ(moved.location_functions[0].scale, 2);
+  EXPECT_EQ(moved.location_functions[1].scale, 1.5);
+  EXPECT_EQ(moved.location_functions[2].scale, 4);
+  const PathPointSpec& stretched = scaled.muscles[0].path[1];
+  EXPECT_TRUE(stretched.location.isApprox(Eigen::Vector3d(0.2, -0.6, 1.2), 1e-14));
+  EXPECT_EQ(stretched.range_min, -0.3);
+  EXPECT_EQ(stretched.range_max, 0.2);
+}
+
 TEST(ApplyScale, UnknownBodyIsRefused) {
   try {
     applyScaleFactors(makeRod(), {{"femur", {1, 1, 1}}}, kPreserved);
