@@ -69,15 +69,6 @@ Vector3d calcMeanDirection(const GroundReaction& reaction, const std::vector<Loa
   return size > 0 ? Vector3d(sum / size) : Vector3d::Zero();
 }
 
-/// Ground from axes of a file: rows are forward, up, right.
-Matrix3d makeTurn(const Vector3d& forward, const Vector3d& up) {
-  Matrix3d R;
-  R.row(0) = forward.transpose();
-  R.row(1) = up.transpose();
-  R.row(2) = forward.cross(up).transpose();
-  return R;
-}
-
 /// A quarter turn about ground's vertical, k times.
 Matrix3d makeQuarterTurn(int k) {
   static const std::array<std::array<double, 2>, 4> kTurns = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};

@@ -259,6 +259,14 @@ std::string SignedAxis::name() const {
   return (sign < 0 ? "-" : "") + std::string(kNames.at(static_cast<std::size_t>(axis)));
 }
 
+Eigen::Matrix3d makeTurn(const Vector3d& forward, const Vector3d& up) {
+  Eigen::Matrix3d R;
+  R.row(0) = forward.transpose();
+  R.row(1) = up.transpose();
+  R.row(2) = forward.cross(up).transpose();
+  return R;
+}
+
 SignedAxis decideVertical(const MarkerTrajectories& markers,
                           const BodyMarkers& body,
                           const LaboratoryOptions& options,
@@ -300,11 +308,8 @@ LaboratoryFrame decideFrame(const MarkerTrajectories& markers,
                             Decisions& decisions) {
   LaboratoryFrame frame;
   frame.vertical = decideVertical(markers, body, options, usual_vertical, decisions);
-  const Vector3d up = frame.vertical.direction();
-  const Vector3d forward = decideForward(markers, body, options, frame.vertical, decisions);
-  frame.R.row(0) = forward.transpose();
-  frame.R.row(1) = up.transpose();
-  frame.R.row(2) = forward.cross(up).transpose();
+  frame.R = makeTurn(decideForward(markers, body, options, frame.vertical, decisions),
+                     frame.vertical.direction());
   return frame;
 }
 

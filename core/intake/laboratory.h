@@ -18,6 +18,9 @@ struct SignedAxis {
 
   Eigen::Vector3d direction() const { return sign * Eigen::Vector3d::Unit(axis); }
   std::string name() const;
+  bool operator==(const SignedAxis& other) const {
+    return axis == other.axis && sign == other.sign;
+  }
 };
 
 /// What the settings say of a laboratory; nothing = it is read out of the data.
@@ -40,6 +43,9 @@ struct LaboratoryFrame {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   SignedAxis vertical{1, 1};
 };
+
+/// Rows forward, up, right: turns vectors of a laboratory into ground.
+Eigen::Matrix3d makeTurn(const Eigen::Vector3d& forward, const Eigen::Vector3d& up);
 
 /// Finds the axis that points up: from the feet to the rest of the body. Without known feet
 /// `usual`. @throws Error kInputAmbiguous naming both readings

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <unordered_map>
@@ -188,133 +189,178 @@ std::vector<Family> findFamilies(const std::vector<std::string>& labels) {
   return families;
 }
 
-std::string listNames(const std::vector<Family>& families) {
-  std::string list;
-  for (const Family& family : families) {
-    list += (list.empty() ? "" : ", ") + family.name;
+Eigen::Matrix3Xd copyColumns(const TableFile& file, const Columns& columns, double absent) {
+  Eigen::Matrix3Xd vectors = Eigen::Matrix3Xd::Constant(3, file.table.rowCount(), absent);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const int column = columns[static_cast<std::size_t>(axis)];
+    if (column >= 0) {
+      vectors.row(axis) = file.table.values.col(column).transpose();
+    }
   }
-  return list;
+  return vectors;
 }
 
-/// Reads the forces of one table, family by family.
-class GrfBuilder {
+/// Takes the forces that feet use, family by family.
+class ForceSelection {
  public:
-  GrfBuilder(const TableFile& file, const GrfOptions& options)
-      : file_(file), options_(options), families_(findFamilies(file.table.labels)) {}
+  ForceSelection(GroundReaction all,
+                 const std::vector<Foot>& feet,
+                 const GrfOptions& options,
+                 const TableFile* file)
+      : all_(std::move(all)), feet_(feet), options_(options), file_(file) {
+    if (file != nullptr) {
+      families_ = findFamilies(file->table.labels);
+    }
+  }
 
-  GroundReaction build() {
-    requireFamilies();
+  GroundReaction select() {
+    requireKnownPlates();
     GroundReaction reaction;
-    reaction.time = file_.table.time;
-    for (const Family& family : families_) {
-      const std::string body = findBody(family);
-      if (!body.empty()) {
-        reaction.forces.push_back(makeForce(family, body));
+    reaction.time = all_.time;
+    for (std::size_t i = 0; i < all_.forces.size(); ++i) {
+      ExternalForce& force = all_.forces[i];
+      force.body = findBody(force.name, feet_[i]);
+      if (!force.body.empty()) {
+        checkForce(force);
+        gate(force);
+        reaction.forces.push_back(std::move(force));
       }
     }
     if (reaction.forces.empty()) {
-      fail(ErrorCode::kGrfColumns, "no column family is assigned to a body", nullptr);
+      fail(ErrorCode::kGrfColumns, "no column family is assigned to a body", "");
     }
     requireLoad(reaction);
     return reaction;
   }
 
  private:
-  void requireFamilies() const;
-  std::string findBody(const Family& family) const;
-  ExternalForce makeForce(const Family& family, const std::string& body) const;
-  Eigen::Matrix3Xd copy(const Columns& columns) const;
-  void requireNumbers(const Family& family, const ExternalForce& force) const;
-  void requireUnits(const Family& family, const ExternalForce& force) const;
+  std::string listNames() const;
+  void requireKnownPlates() const;
+  std::string findBody(const std::string& name, Foot foot) const;
+  void checkForce(const ExternalForce& force) const;
+  void requireNumbers(const ExternalForce& force) const;
+  void requireUnits(const ExternalForce& force) const;
   void requireLoad(const GroundReaction& reaction) const;
   void gate(ExternalForce& force) const;
-  [[noreturn]] void fail(ErrorCode code, const std::string& message, const Family* family) const;
-  [[noreturn]] void failAt(Eigen::Index row, int column, const std::string& message) const;
+  const Family* findFamily(const std::string& name) const;
+  [[noreturn]] void fail(ErrorCode code,
+                         const std::string& message,
+                         const std::string& family) const;
+  enum class Quantity { kForce, kPoint, kTorque };
+  [[noreturn]] void failAt(const ExternalForce& force,
+                           Quantity quantity,
+                           Eigen::Index axis,
+                           Eigen::Index row,
+                           const std::string& message) const;
 
-  const TableFile& file_;
+  GroundReaction all_;
+  const std::vector<Foot>& feet_;
   const GrfOptions& options_;
+  const TableFile* file_;
   std::vector<Family> families_;
 };
 
-void GrfBuilder::fail(ErrorCode code, const std::string& message, const Family* family) const {
-  Where where{file_.file_name, file_.label_line, 1, {}};
-  if (family != nullptr) {
-    where.column = file_.label_columns[static_cast<std::size_t>(family->force[0])];
-    where.field = family->name;
+const Family* ForceSelection::findFamily(const std::string& name) const {
+  const auto found = std::find_if(
+      families_.begin(), families_.end(), [&](const Family& one) { return one.name == name; });
+  return found == families_.end() ? nullptr : &*found;
+}
+
+std::string ForceSelection::listNames() const {
+  std::string list;
+  for (const ExternalForce& force : all_.forces) {
+    list += (list.empty() ? "" : ", ") + force.name;
+  }
+  return list;
+}
+
+void ForceSelection::fail(ErrorCode code,
+                          const std::string& message,
+                          const std::string& family) const {
+  Where where;
+  where.field = family;
+  if (file_ != nullptr) {
+    where.file = file_->file_name;
+    where.line = file_->label_line;
+    where.column = 1;
+    if (const Family* found = findFamily(family)) {
+      where.column = file_->label_columns[static_cast<std::size_t>(found->force[0])];
+    }
   }
   throw Error(code, message, where);
 }
 
-void GrfBuilder::failAt(Eigen::Index row, int column, const std::string& message) const {
-  throw Error(ErrorCode::kGrfValue,
-              message,
-              {file_.file_name,
-               file_.row_lines[static_cast<std::size_t>(row)],
-               0,
-               file_.table.labels[static_cast<std::size_t>(column)]});
+void ForceSelection::failAt(const ExternalForce& force,
+                            Quantity quantity,
+                            Eigen::Index axis,
+                            Eigen::Index row,
+                            const std::string& message) const {
+  Where where;
+  where.field = force.name;
+  where.time = all_.time[static_cast<std::size_t>(row)];
+  const Family* family = findFamily(force.name);
+  if (family != nullptr) {
+    const Columns& columns = quantity == Quantity::kForce   ? family->force
+                             : quantity == Quantity::kPoint ? family->point
+                                                            : family->torque;
+    where.file = file_->file_name;
+    where.line = file_->row_lines[static_cast<std::size_t>(row)];
+    where.field =
+        file_->table.labels[static_cast<std::size_t>(columns[static_cast<std::size_t>(axis)])];
+  }
+  throw Error(ErrorCode::kGrfValue, message, where);
 }
 
-void GrfBuilder::requireFamilies() const {
-  if (families_.empty()) {
-    fail(ErrorCode::kGrfColumns,
-         "no ground reaction columns found; expected for instance ground_force_r_vx, _vy, _vz",
-         nullptr);
-  }
+void ForceSelection::requireKnownPlates() const {
   for (const PlateAssignment& plate : options_.plates) {
-    const bool known = std::any_of(families_.begin(), families_.end(), [&](const Family& family) {
-      return family.name == plate.family;
-    });
+    const bool known =
+        std::any_of(all_.forces.begin(), all_.forces.end(), [&](const ExternalForce& force) {
+          return force.name == plate.family;
+        });
     if (!known) {
       fail(ErrorCode::kGrfColumns,
-           "there are no columns '" + plate.family + "'; found " + listNames(families_),
-           nullptr);
+           "there are no columns '" + plate.family + "'; found " + listNames(),
+           "");
     }
   }
 }
 
-std::string GrfBuilder::findBody(const Family& family) const {
+std::string ForceSelection::findBody(const std::string& name, Foot foot) const {
   for (const PlateAssignment& plate : options_.plates) {
-    if (plate.family == family.name) {
+    if (plate.family == name) {
       return plate.body;
     }
   }
   if (!options_.plates.empty()) {
     return "";
   }
-  if (family.side != "r" && family.side != "l") {
+  if (foot == Foot::kUnknown) {
     fail(ErrorCode::kGrfColumns,
-         "columns '" + family.name + "' name a plate, not a foot; assign plates to feet (found " +
-             listNames(families_) + ")",
-         &family);
+         "columns '" + name + "' name a plate, not a foot; assign plates to feet (found " +
+             listNames() + ")",
+         name);
   }
-  return family.side == "r" ? options_.right_body : options_.left_body;
+  return foot == Foot::kRight ? options_.right_body : options_.left_body;
 }
 
-Eigen::Matrix3Xd GrfBuilder::copy(const Columns& columns) const {
-  Eigen::Matrix3Xd vectors = Eigen::Matrix3Xd::Zero(3, file_.table.rowCount());
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const int column = columns[static_cast<std::size_t>(axis)];
-    if (column >= 0) {
-      vectors.row(axis) = file_.table.values.col(column).transpose();
-    }
-  }
-  return vectors;
-}
-
-void GrfBuilder::requireNumbers(const Family& family, const ExternalForce& force) const {
+void ForceSelection::requireNumbers(const ExternalForce& force) const {
   for (Eigen::Index row = 0; row < force.force.cols(); ++row) {
     const bool loaded =
         std::abs(force.force(1, row)) >= options_.threshold && force.force(1, row) != 0;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const auto i = static_cast<std::size_t>(axis);
       if (!std::isfinite(force.force(axis, row))) {
-        failAt(row, family.force[i], "a force is missing");
+        failAt(force, Quantity::kForce, axis, row, "a force is missing");
       }
       if (loaded && !std::isfinite(force.point(axis, row))) {
-        failAt(row, family.point[i], "the centre of pressure is missing while the plate is loaded");
+        failAt(force,
+               Quantity::kPoint,
+               axis,
+               row,
+               "the centre of pressure is missing while the plate is loaded");
       }
       if (loaded && !std::isfinite(force.torque(axis, row))) {
-        failAt(row, family.torque[i], "a torque is missing while the plate is loaded");
+        failAt(
+            force, Quantity::kTorque, axis, row, "a torque is missing while the plate is loaded");
       }
     }
   }
@@ -326,12 +372,12 @@ double findMedian(std::vector<double>& values) {
   return *middle;
 }
 
-void GrfBuilder::requireUnits(const Family& family, const ExternalForce& force) const {
+void ForceSelection::requireUnits(const ExternalForce& force) const {
   const double peak = force.force.row(1).cwiseAbs().maxCoeff();
   if (peak > kLargestForce) {
     fail(ErrorCode::kGrfUnits,
          "vertical force reaches " + formatNumber(peak) + ", which cannot be newtons",
-         &family);
+         force.name);
   }
   if (peak < std::max(kLeastLoad, options_.threshold)) {
     return;
@@ -349,22 +395,22 @@ void GrfBuilder::requireUnits(const Family& family, const ExternalForce& force) 
   if (findMedian(vertical) < 0) {
     fail(ErrorCode::kGrfUnits,
          "the vertical force points down; forces on the subject, Y up, are expected",
-         &family);
+         force.name);
   }
   if (const double median = findMedian(distance); median > kLargestPoint) {
     fail(
         ErrorCode::kGrfUnits,
         "centres of pressure lie " + formatNumber(median) + " from the origin; metres are expected",
-        &family);
+        force.name);
   }
   if (const double median = findMedian(twist); median > kLargestTorque) {
     fail(ErrorCode::kGrfUnits,
          "free torques are around " + formatNumber(median) + "; N.m are expected",
-         &family);
+         force.name);
   }
 }
 
-void GrfBuilder::requireLoad(const GroundReaction& reaction) const {
+void ForceSelection::requireLoad(const GroundReaction& reaction) const {
   const double least = std::max(kLeastLoad, options_.threshold);
   const bool any =
       std::any_of(reaction.forces.begin(), reaction.forces.end(), [&](const ExternalForce& force) {
@@ -373,11 +419,11 @@ void GrfBuilder::requireLoad(const GroundReaction& reaction) const {
   if (!any) {
     fail(ErrorCode::kGrfUnits,
          "no vertical force (second component, Y up) ever reaches " + formatNumber(least) + " N",
-         nullptr);
+         "");
   }
 }
 
-void GrfBuilder::gate(ExternalForce& force) const {
+void ForceSelection::gate(ExternalForce& force) const {
   for (Eigen::Index row = 0; row < force.force.cols(); ++row) {
     if (std::abs(force.force(1, row)) < options_.threshold) {
       force.force.col(row).setZero();
@@ -386,22 +432,15 @@ void GrfBuilder::gate(ExternalForce& force) const {
   }
 }
 
-ExternalForce GrfBuilder::makeForce(const Family& family, const std::string& body) const {
-  if (family.point[0] < 0) {
+void ForceSelection::checkForce(const ExternalForce& force) const {
+  const bool is_loaded = (force.force.row(1).array().abs() >= options_.threshold).any();
+  if (is_loaded && !force.point.array().isFinite().any()) {
     fail(ErrorCode::kGrfColumns,
-         "columns '" + family.name + "' state no centre of pressure (px, py, pz)",
-         &family);
+         "columns '" + force.name + "' state no centre of pressure (px, py, pz)",
+         force.name);
   }
-  ExternalForce force;
-  force.name = family.name;
-  force.body = body;
-  force.force = copy(family.force);
-  force.point = copy(family.point);
-  force.torque = copy(family.torque);
-  requireNumbers(family, force);
-  requireUnits(family, force);
-  gate(force);
-  return force;
+  requireNumbers(force);
+  requireUnits(force);
 }
 
 }  // namespace
@@ -424,8 +463,34 @@ std::vector<Foot> findFamilyFeet(const std::vector<std::string>& labels) {
   return feet;
 }
 
+GroundReaction readForceColumns(const TableFile& file) {
+  GroundReaction all;
+  all.time = file.table.time;
+  for (const Family& family : findFamilies(file.table.labels)) {
+    ExternalForce force;
+    force.name = family.name;
+    force.force = copyColumns(file, family.force, 0);
+    force.point = copyColumns(file, family.point, std::numeric_limits<double>::quiet_NaN());
+    force.torque = copyColumns(file, family.torque, 0);
+    all.forces.push_back(std::move(force));
+  }
+  require(!all.forces.empty(),
+          ErrorCode::kGrfColumns,
+          "no ground reaction columns found; expected for instance ground_force_r_vx, _vy, _vz",
+          {file.file_name, file.label_line, 1, {}});
+  return all;
+}
+
+GroundReaction selectForces(GroundReaction all,
+                            const std::vector<Foot>& feet,
+                            const GrfOptions& options,
+                            const TableFile* file) {
+  check(feet.size() == all.forces.size(), "every force needs its foot, known or not");
+  return ForceSelection(std::move(all), feet, options, file).select();
+}
+
 GroundReaction readGroundReaction(const TableFile& file, const GrfOptions& options) {
-  return GrfBuilder(file, options).build();
+  return selectForces(readForceColumns(file), findFamilyFeet(file.table.labels), options, &file);
 }
 
 }  // namespace gaitmill

@@ -35,6 +35,21 @@ std::vector<std::string> findForceFamilies(const std::vector<std::string>& label
 /// The feet that the families name, in the order of findForceFamilies; unknown for plates.
 std::vector<Foot> findFamilyFeet(const std::vector<std::string>& labels);
 
+/// Every family of a table as its columns stand: bodies empty, no unit judged, nothing zeroed.
+/// Torques that are absent are zero, points that are absent are not numbers.
+/// @throws Error kGrfColumns if there is no family
+GroundReaction readForceColumns(const TableFile& file);
+
+/// The forces that feet use, each with its body, checked and zero where the plate is unloaded.
+/// @param all   in ground axes, N, m and N.m on the subject; bodies are replaced
+/// @param feet  one per force, as findFamilyFeet
+/// @param file  to name lines and columns in messages, or null
+/// @throws Error as readGroundReaction
+GroundReaction selectForces(GroundReaction all,
+                            const std::vector<Foot>& feet,
+                            const GrfOptions& options,
+                            const TableFile* file);
+
 /// Ground reactions out of a table: one ExternalForce per family that a foot uses, in the order of
 /// the columns. Side r, R_ or no side at all is the right foot; l, L_ or the number 1 in front
 /// ("1_ground_force_vx", beside an unnumbered family) is the left.

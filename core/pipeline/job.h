@@ -20,6 +20,7 @@
 #include "core/analysis/power_balance.h"
 #include "core/analysis/quality_check.h"
 #include "core/cmc/cmc_result.h"
+#include "core/data/decision.h"
 #include "core/data/ground_reaction.h"
 #include "core/data/marker_trajectories.h"
 #include "core/data/model_spec.h"
@@ -82,6 +83,7 @@ struct Job {
 
   std::array<double, kStageCount> seconds{};  ///< processor time of each stage, 0 = not run
   std::vector<std::string> warnings;
+  Decisions decisions;  ///< on the input files
 
   bool ran(Stage stage) const { return seconds[static_cast<std::size_t>(stage)] > 0; }
   void warn(const std::string& sentence);

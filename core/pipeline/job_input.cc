@@ -7,10 +7,9 @@
 #include "core/io/files.h"
 #include "core/io/grf_reader.h"
 #include "core/io/osim_reader.h"
-#include "core/io/table_reader.h"
-#include "core/io/trc_reader.h"
 #include "core/math/filters.h"
 #include "core/pipeline/checkpoint.h"
+#include "core/pipeline/intake.h"
 #include "core/pipeline/job.h"
 #include "core/pipeline/job_emg.h"
 #include "core/pipeline/marker_set_json.h"
@@ -39,14 +38,6 @@ void needPositive(double value, const char* field, const char* unit) {
           ErrorCode::kInputValue,
           std::string("expected a positive number of ") + unit + ", found " + std::to_string(value),
           {{}, 0, 0, field});
-}
-
-MarkerTrajectories openMarkers(const InputFile& file, Job& job) {
-  TrcFile trc = readTrc(file.bytes, file.name, job.settings.trc);
-  for (const std::string& warning : trc.warnings) {
-    job.warn(file.name + ": " + warning);
-  }
-  return std::move(trc.markers);
 }
 
 ModelSpec openModel(const InputFile& file, Job& job) {
@@ -85,13 +76,12 @@ void filterForces(double cutoff, double threshold, GroundReaction& reaction) {
   }
 }
 
-void openForces(Job& job) {
-  const InputFile& file = *job.input->ground_reaction;
-  const TableFile table = readTable(file.bytes, file.name);
-  for (const std::string& warning : table.warnings) {
-    job.warn(file.name + ": " + warning);
-  }
-  job.reaction = readGroundReaction(table, job.settings.forces.reading);
+void openForces(Intake& intake, Job& job) {
+  ForceReading reading = intake.readForces(*job.input->ground_reaction);
+  job.reaction = selectForces(std::move(reading.plates),
+                              reading.feet,
+                              job.settings.forces.reading,
+                              reading.table ? &*reading.table : nullptr);
   if (job.settings.forces.lowpass_cutoff) {
     filterForces(
         *job.settings.forces.lowpass_cutoff, job.settings.forces.reading.threshold, job.reaction);
@@ -126,10 +116,10 @@ void openModels(Job& job) {
   }
 }
 
-void openMotion(Job& job) {
+void openMotion(Intake& intake, Job& job) {
   const bool measured = job.settings.runs(Stage::kIk);
   if (measured) {
-    job.markers = openMarkers(*job.input->markers, job);
+    job.markers = intake.readMovement(*job.input->markers).markers;
     return;
   }
   if (job.settings.last <= Stage::kIk) {
@@ -137,13 +127,19 @@ void openMotion(Job& job) {
   }
   const InputFile& file = *job.input->coordinates;
   std::vector<std::string> ignored;
-  job.measured_coordinates = toCoordinates(readTable(file.bytes, file.name),
-                                           job.scaled.joints.empty() ? job.generic : job.scaled,
-                                           &ignored);
+  job.measured_coordinates =
+      intake.readCoordinates(file, job.scaled.joints.empty() ? job.generic : job.scaled, ignored);
   for (const std::string& label : ignored) {
     job.warn(file.name + ": column '" + label + "' is no coordinate of the model and is ignored");
   }
   job.motion = job.measured_coordinates;
+}
+
+void openStaticPoses(Intake& intake, Job& job) {
+  job.static_poses.push_back(intake.readStatic(*job.input->static_markers, "static").markers);
+  if (job.input->static_markers_2) {
+    job.static_poses.push_back(intake.readStatic(*job.input->static_markers_2, "static2").markers);
+  }
 }
 
 bool needsForces(const PipelineSettings& settings) {
@@ -213,16 +209,19 @@ Job openJob(const TrialInput& input,
   job.fingerprint = calcFingerprint(input, settings);
   checkParts(input, job.settings);
   openModels(job);
+  // The movement first: its laboratory frame holds for the other files.
+  Intake intake(job.settings);
+  openMotion(intake, job);
   if (job.settings.runs(Stage::kScale)) {
-    job.static_poses.push_back(openMarkers(*input.static_markers, job));
-    if (input.static_markers_2) {
-      job.static_poses.push_back(openMarkers(*input.static_markers_2, job));
-    }
+    openStaticPoses(intake, job);
   }
-  openMotion(job);
   if (needsForces(job.settings)) {
-    openForces(job);
+    openForces(intake, job);
   }
+  for (const std::string& warning : intake.warnings()) {
+    job.warn(warning);
+  }
+  job.decisions = intake.decisions();
   openEmg(job);
   job.quiet = false;
   return job;

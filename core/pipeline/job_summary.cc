@@ -95,6 +95,20 @@ Json summarizeCycles(const std::vector<GaitCycle>& cycles) {
   return list;
 }
 
+Json summarizeDecisions(const Decisions& decisions) {
+  Json list = Json::array();
+  for (const Decision& decision : decisions) {
+    list.push_back({{"part", decision.part},
+                    {"topic", decision.topic},
+                    {"field", decision.field},
+                    {"value", decision.value},
+                    {"origin", originName(decision.origin)},
+                    {"confidence", toJsonNumber(decision.confidence)},
+                    {"evidence", decision.evidence}});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string makeSummary(const Job& job, const JobQuality& quality) {
@@ -123,6 +137,7 @@ std::string makeSummary(const Job& job, const JobQuality& quality) {
   if (job.emg) {
     summary["emg"] = summarizeEmg(job);
   }
+  summary["decisions"] = summarizeDecisions(job.decisions);
   summary["settings_used"] = Json::parse(writeSettings(job.settings));
   summary["warnings"] = job.warnings;
   return summary.dump(2) + "\n";

@@ -19,6 +19,16 @@ constexpr Limits kPasses{0, 20};
 constexpr Limits kEmgFrequency{0.1, 100000};  // [Hz]
 constexpr Limits kFilterOrder{1, 12};
 
+const Choices<SignedAxis>& axisChoices() {
+  static const Choices<SignedAxis> choices = {{"x", {0, 1}},
+                                              {"-x", {0, -1}},
+                                              {"y", {1, 1}},
+                                              {"-y", {1, -1}},
+                                              {"z", {2, 1}},
+                                              {"-z", {2, -1}}};
+  return choices;
+}
+
 template <class Fields>
 void visitStages(Fields& fields, PipelineSettings& settings) {
   fields.stage("first", settings.first);
@@ -27,6 +37,25 @@ void visitStages(Fields& fields, PipelineSettings& settings) {
   if (settings.last < settings.first) {
     fields.refuse("last", "is a stage before the first one");
   }
+}
+
+/// How the files of a laboratory are to be read; null = as the data say.
+template <class Fields>
+void visitLaboratory(Fields& fields, PipelineSettings& settings) {
+  static const Choices<double> kLengths = {{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}};
+  static const Choices<double> kMoments = {{"N.m", 1.0}, {"N.mm", 0.001}};
+  static const Choices<bool> kDirections = {{"on_subject", true}, {"on_plate", false}};
+  static const Choices<bool> kAngles = {{"deg", true}, {"rad", false}};
+  fields.choice("vertical_axis", axisChoices(), settings.laboratory.vertical);
+  fields.choice("forward_axis", axisChoices(), settings.laboratory.forward);
+  fields.choice("marker_units", kLengths, settings.laboratory.metres_per_unit);
+  fields.choice("force_vertical_axis", axisChoices(), settings.force_reading.vertical);
+  fields.choice("force_forward_axis", axisChoices(), settings.force_reading.forward);
+  fields.choice("force_point_units", kLengths, settings.force_reading.metres_per_unit);
+  fields.choice("force_moment_units", kMoments, settings.force_reading.moment_factor);
+  fields.choice("force_direction", kDirections, settings.force_reading.on_subject);
+  fields.number("force_time_offset_s", {-10, 10}, settings.force_time_offset);
+  fields.choice("angle_units", kAngles, settings.angles_in_degrees);
 }
 
 template <class Fields>
@@ -54,6 +83,7 @@ void visitTrial(Fields& fields, PipelineSettings& settings) {
     plate.need("body");
     plate.text("body", assignment.body);
   });
+  visitLaboratory(fields, settings);
   fields.range("gait_cycle_s", settings.gait_cycle);
   fields.choice("paper_trial",
                 Choices<PaperTrial>{{"walk", PaperTrial::kWalk}, {"run", PaperTrial::kRun}},

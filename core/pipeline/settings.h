@@ -14,6 +14,8 @@
 #include "core/data/model_spec.h"
 #include "core/id/id_options.h"
 #include "core/ik/ik_options.h"
+#include "core/intake/force_reading.h"
+#include "core/intake/laboratory.h"
 #include "core/io/grf_reader.h"
 #include "core/io/trc_reader.h"
 #include "core/pipeline/pipeline.h"
@@ -107,6 +109,11 @@ struct PipelineSettings {
 
   TrcOptions trc;
   ForceSettings forces;
+  // What is stated here is not read out of the data.
+  LaboratoryOptions laboratory;
+  ForceReadingOptions force_reading;
+  std::optional<double> force_time_offset;  ///< [s] added to the times of the forces
+  std::optional<bool> angles_in_degrees;    ///< of a coordinates file
   std::optional<TimeRange> gait_cycle;  ///< two strikes of the right foot; absent = from the forces
 
   /// Set where the job is one of the paper's two trials: the result then holds the acceptance list.
