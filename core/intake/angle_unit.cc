@@ -33,7 +33,10 @@ bool decideAngleUnit(double peak,
                      const StatedAngles& stated,
                      const std::optional<bool>& set,
                      Decisions& decisions) {
-  Decision decision{"coordinates", "angle_units", "trial.angle_units", "", {}, 1, ""};
+  Decision decision;
+  decision.part = "coordinates";
+  decision.topic = "angle_units";
+  decision.field = "trial.angle_units";
   bool degrees = set.value_or(stated.degrees);
   decision.origin = set                ? Decision::Origin::kSet
                     : stated.is_stated ? Decision::Origin::kStated

@@ -188,7 +188,11 @@ void decideClock(const MarkerTrajectories& markers,
                  const std::optional<double>& set,
                  GroundReaction& reaction,
                  Decisions& decisions) {
-  Decision decision{"grf", "force_time_offset_s", "trial.force_time_offset_s", "0", {}, 1, ""};
+  Decision decision;
+  decision.part = "grf";
+  decision.topic = "force_time_offset_s";
+  decision.field = "trial.force_time_offset_s";
+  decision.evidence = "there is no movement to compare with";
   double offset = 0;
   if (set) {
     offset = *set;

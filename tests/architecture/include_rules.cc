@@ -19,11 +19,7 @@ const std::map<std::string, std::set<std::string>>& allowedRooms() {
       {"core/data", {"core/base"}},
       {"core/math", {"core/base", "core/data"}},
       {"core/io", {"core/base", "core/data"}},
-<<<<<<< HEAD
       {"core/muscle", {"core/base", "core/data", "core/math"}},
-=======
-      {"core/muscle", {"core/base", "core/data"}},
->>>>>>> 7c1c6a6 (intake: jobs read their files through one intake that says what it took them for)
       {"core/model", {"core/base", "core/data", "core/math", "core/muscle"}},
       {"core/scale", stage},
       {"core/ik", stage},
