@@ -212,6 +212,32 @@ std::map<std::string, double> fitWeights(const RraSettings::Pass& pass, const Mo
   return weights;
 }
 
+std::vector<TrackingTask> fitTasks(const RraSettings::Pass& pass, const ModelSpec& model) {
+  constexpr double kLightSegment = 0.03;      // of the body's mass: less than a foot and its shank
+  constexpr double kFastPositionGain = 1600;  // [1/s^2] as published for the subtalar joint
+  constexpr double kFastVelocityGain = 80;    // [1/s]
+  std::map<std::string, bool> is_light;
+  if (pass.others != OtherCoordinates::kNone) {
+    for (const ModelCoordinate& coordinate :
+         listFreeCoordinates(model, findBase(kUsualBase, model))) {
+      const bool listed = findListed(pass.weights, coordinate.name, -1) >= 0;
+      is_light[coordinate.name] = !listed && coordinate.moved_share < kLightSegment;
+    }
+  }
+  std::vector<TrackingTask> tasks;
+  for (const auto& [coordinate, weight] : fitWeights(pass, model)) {
+    TrackingTask task;
+    task.coordinate = coordinate;
+    task.weight = weight;
+    if (is_light[coordinate]) {
+      task.position_gain = kFastPositionGain;
+      task.velocity_gain = kFastVelocityGain;
+    }
+    tasks.push_back(task);
+  }
+  return tasks;
+}
+
 std::vector<ActuatorSpec> makeActuators(const ActuatorSetSettings& settings,
                                         const ModelSpec& model) {
   std::vector<ActuatorSpec> actuators;

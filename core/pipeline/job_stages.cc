@@ -94,17 +94,6 @@ TimeRange findCommonRange(const TimeRange& asked,
   return range;
 }
 
-std::vector<TrackingTask> makeTasks(const RraSettings::Pass& pass, const ModelSpec& model) {
-  std::vector<TrackingTask> tasks;
-  for (const auto& [coordinate, weight] : fitWeights(pass, model)) {
-    TrackingTask task;
-    task.coordinate = coordinate;
-    task.weight = weight;
-    tasks.push_back(task);
-  }
-  return tasks;
-}
-
 /// Whether the body leaves the ground: no step of a runner lasts as long as this, and a walker's
 /// steps overlap, so that a plate or two bear him for longer.
 bool isRunning(const GroundReaction& reaction) {
@@ -154,7 +143,7 @@ RraOptions makeRraOptions(const Job& job) {
   for (const RraSettings::Pass& pass : settings.passes) {
     const TimeRange range = findCommonRange(
         pass.range.value_or(settings.range), job.measured_coordinates, job.reaction);
-    options.passes.push_back({range.start, range.end, makeTasks(pass, job.scaled)});
+    options.passes.push_back({range.start, range.end, fitTasks(pass, job.scaled)});
   }
   return options;
 }
@@ -168,11 +157,21 @@ void runRra(Job& job) {
   takeWarnings("rra", job.rra->warnings, job);
 }
 
+bool hasMusclesOf(const ModelSpec& generic, const ModelSpec& model) {
+  return std::all_of(model.muscles.begin(), model.muscles.end(), [&](const MuscleSpec& muscle) {
+    return generic.findMuscle(muscle.name) >= 0;
+  });
+}
+
 /// Strength belongs behind residual reduction, which settles the mass (spec/scale.md 5). A model
 /// that comes in later is taken as it is.
 void adjustMuscles(Job& job) {
   const PipelineSettings& settings = job.settings;
-  if (settings.strength_law != StrengthLaw::kNone) {
+  if (settings.strength_law != StrengthLaw::kNone && !hasMusclesOf(job.generic, job.adjusted)) {
+    job.warn(
+        "strength: the model came scaled and its generic form is not known, so that the "
+        "strength of its muscles stays as it is");
+  } else if (settings.strength_law != StrengthLaw::kNone) {
     const BodySize subject{job.adjusted.calcTotalMass(),
                            settings.strength_height.value_or(job.input->height)};
     scaleStrength(job.generic, settings.strength_law, subject, job.adjusted);

@@ -50,7 +50,7 @@ struct ActuatorSetSettings {
   std::optional<Residuals> residuals;
   CoordinateValues coordinates;  ///< optimal force by coordinate [N.m|N]
   OtherCoordinates others = OtherCoordinates::kNone;
-  double other_optimal_force = 2.5;  ///< of the others [N.m|N]
+  double other_optimal_force = 1;  ///< of the others [N.m|N]
   std::string name_suffix = "_reserve";
   double control_limit = 1000;
 };
@@ -166,5 +166,10 @@ std::map<std::string, double> expandSides(const CoordinateValues& values, const 
 /// Tracking weights on a model. Coordinates that are not listed weigh by their joint: the base
 /// most, then what carries much of the body's mass.
 std::map<std::string, double> fitWeights(const RraSettings::Pass& pass, const ModelSpec& model);
+
+/// The same as tasks. Light segments that are not listed, such as toes, are followed with four
+/// times the bandwidth: between two controls their small inertia gives way to what the ramp misses
+/// (spec/rra.md 9.9).
+std::vector<TrackingTask> fitTasks(const RraSettings::Pass& pass, const ModelSpec& model);
 
 }  // namespace gaitmill

@@ -257,6 +257,13 @@ TEST(Settings, DefaultsFitModelsWithOtherCoordinates) {
   // Muscles cross both joints of the foot.
   EXPECT_EQ(makeActuators(settings.cmc_actuators, feet).size(), 20U);
 
+  // Toes weigh next to nothing; listed coordinates keep the gains of the published trials.
+  for (const TrackingTask& task : fitTasks(settings.rra.passes[0], feet)) {
+    const bool toes = task.coordinate.find("mtp") == 0 || task.coordinate.find("subtalar") == 0;
+    EXPECT_EQ(task.position_gain, toes ? 1600 : 100) << task.coordinate;
+    EXPECT_EQ(task.velocity_gain, toes ? 80 : 20) << task.coordinate;
+  }
+
   const ModelSpec renamed = renameCoordinate(readOwnModel(), "lumbar_extension", "flex_extension");
   const std::map<std::string, double> weights = fitWeights(settings.rra.passes[0], renamed);
   EXPECT_EQ(weights.size(), 29U);
