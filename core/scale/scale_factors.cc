@@ -16,6 +16,13 @@ namespace gaitmill {
 
 namespace {
 
+/// Where model distances are taken.
+struct Stand {
+  const Model& model;
+  ModelState state;
+  double factor = 1;  ///< that the distances have already
+};
+
 std::optional<Eigen::Vector3d> findInModel(const Model& model,
                                            const ModelState& state,
                                            const std::string& name) {
@@ -28,11 +35,11 @@ std::optional<Eigen::Vector3d> findInModel(const Model& model,
 }
 
 /// Measures one pair; returns what is wrong, or nothing.
-std::string measure(const Model& model,
-                    const ModelState& state,
+std::string measure(const Stand& stand,
                     const MarkerTrajectories& trial,
                     const ScaleOptions& options,
                     PairResult& pair) {
+  const Model& model = stand.model;
   for (const std::string& name : {pair.first, pair.second}) {
     if (!trial.findMarker(name)) {
       return "marker '" + name + "' is not in the static trial";
@@ -57,8 +64,9 @@ std::string measure(const Model& model,
            "' are visible together in too few frames";
   }
   pair.measured = sum / visible;
-  pair.in_model =
-      (*findInModel(model, state, pair.first) - *findInModel(model, state, pair.second)).norm();
+  const Eigen::Vector3d first = *findInModel(model, stand.state, pair.first);
+  const Eigen::Vector3d second = *findInModel(model, stand.state, pair.second);
+  pair.in_model = (first - second).norm() / stand.factor;
   if (pair.in_model <= 0) {
     return "markers '" + pair.first + "' and '" + pair.second + "' coincide in the model";
   }
@@ -67,8 +75,7 @@ std::string measure(const Model& model,
 }
 
 /// The pairs of one measurement and the mean of their factors.
-MeasurementResult measurePairs(const Model& model,
-                               const ModelState& state,
+MeasurementResult measurePairs(const Stand& stand,
                                const MarkerTrajectories& trial,
                                const ScaleOptions& options,
                                const MeasurementSpec& spec,
@@ -78,7 +85,7 @@ MeasurementResult measurePairs(const Model& model,
   int count = 0;
   for (const MarkerPair& names : spec.pairs) {
     PairResult pair{names.first, names.second};
-    const std::string fault = measure(model, state, trial, options, pair);
+    const std::string fault = measure(stand, trial, options, pair);
     require(fault.empty() || !spec.required,
             ErrorCode::kInputMarkers,
             "measurement '" + spec.name + "': " + fault,
@@ -128,29 +135,30 @@ void judgeBand(const MeasurementSpec& spec,
 }
 
 /// Keeps a factor within its limits relative to an earlier measurement.
-void applyLimit(const MeasurementSpec& spec,
+void applyLimit(const MarkerSetSpec& set,
                 const std::vector<MeasurementResult>& earlier,
                 MeasurementResult& result,
                 std::vector<std::string>& warnings) {
-  if (!spec.limit || !isApplied(result)) {
+  const std::optional<FactorLimit>& limit = set.measurements[earlier.size()].limit;
+  if (!limit || !isApplied(result)) {
     return;
   }
-  const auto reference =
-      std::find_if(earlier.begin(), earlier.end(), [&](const MeasurementResult& one) {
-        return one.name == spec.limit->measurement && isApplied(one);
-      });
-  if (reference == earlier.end()) {
+  for (std::size_t i = 0; i < earlier.size(); ++i) {
+    const bool is_named = earlier[i].name == limit->measurement ||
+                          set.measurements[i].alternative_of == limit->measurement;
+    if (!is_named || !isApplied(earlier[i])) {
+      continue;
+    }
+    const double limited = std::clamp(
+        result.factor, limit->min_ratio * earlier[i].factor, limit->max_ratio * earlier[i].factor);
+    if (limited != result.factor) {
+      warnings.push_back("measurement '" + result.name + "' gives " +
+                         formatFixed(result.factor, 3) + "; limited to " + formatFixed(limited, 3) +
+                         " beside '" + earlier[i].name + "' " + formatFixed(earlier[i].factor, 3));
+      result.factor = limited;
+      result.use = MeasurementUse::kLimited;
+    }
     return;
-  }
-  const double limited = std::clamp(result.factor,
-                                    spec.limit->min_ratio * reference->factor,
-                                    spec.limit->max_ratio * reference->factor);
-  if (limited != result.factor) {
-    warnings.push_back("measurement '" + spec.name + "' gives " + formatFixed(result.factor, 3) +
-                       "; limited to " + formatFixed(limited, 3) + " beside '" + reference->name +
-                       "' " + formatFixed(reference->factor, 3));
-    result.factor = limited;
-    result.use = MeasurementUse::kLimited;
   }
 }
 
@@ -203,14 +211,30 @@ bool isAnswered(const MarkerSetSpec& set, std::size_t index, const ScaleFactors&
   return false;
 }
 
+/// The factor that a measurement's bodies have.
+double findFactor(const Model& model,
+                  const MeasurementSpec& spec,
+                  const std::vector<BodyScale>& factors) {
+  for (const std::string& body : spec.bodies) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (spec.axes[static_cast<std::size_t>(axis)]) {
+        return factors[static_cast<std::size_t>(model.getBody(body).value())].factors[axis];
+      }
+    }
+  }
+  return 1.0;
+}
+
 void applyMeasurements(const Model& model,
                        const MarkerTrajectories& trial,
                        const ScaleOptions& options,
-                       const std::optional<Eigen::VectorXd>& fitted_pose,
+                       const FittedModel* fitted,
                        ScaleFactors& factors) {
-  ModelState standing(model), fitted(model);
-  standing.setPose(model.defaultPose());
-  fitted.setPose(fitted_pose.value_or(model.defaultPose()));
+  Stand generic{model, ModelState(model)};
+  generic.state.setPose(model.defaultPose());
+  const Model& fitted_model = fitted != nullptr ? fitted->model : model;
+  Stand standing{fitted_model, ModelState(fitted_model)};
+  standing.state.setPose(fitted != nullptr ? fitted->q : model.defaultPose());
   const MarkerSetSpec& set = options.marker_set;
   for (std::size_t i = 0; i < set.measurements.size(); ++i) {
     const MeasurementSpec& spec = set.measurements[i];
@@ -218,10 +242,11 @@ void applyMeasurements(const Model& model,
       factors.measurements.push_back({spec.name, -1, {}, MeasurementUse::kNotNeeded});
       continue;
     }
-    const ModelState& state = spec.in_fitted_pose ? fitted : standing;
-    MeasurementResult result = measurePairs(model, state, trial, options, spec, factors.warnings);
+    standing.factor = fitted != nullptr ? findFactor(model, spec, fitted->factors) : 1.0;
+    MeasurementResult result = measurePairs(
+        spec.in_fitted_pose ? standing : generic, trial, options, spec, factors.warnings);
     judgeBand(spec, result, factors.warnings);
-    applyLimit(spec, factors.measurements, result, factors.warnings);
+    applyLimit(set, factors.measurements, result, factors.warnings);
     for (const std::string& body : spec.bodies) {
       getScale(model, body, factors);
     }
@@ -294,16 +319,16 @@ FrameRange findFrameRange(const std::vector<double>& time, const TimeRange& rang
 ScaleFactors calcScaleFactors(const Model& model,
                               const MarkerTrajectories& trial,
                               const ScaleOptions& options,
-                              const std::optional<Eigen::VectorXd>& fitted_pose) {
+                              const FittedModel* fitted) {
   ScaleFactors factors;
   for (const BodySpec& body : model.spec().bodies) {
     factors.bodies.push_back({body.name, Eigen::Vector3d::Constant(options.marker_set.size_ratio)});
   }
   if (options.marker_set.order == ScalingOrder::kManualThenMeasurements) {
     applyManual(model, options.marker_set, factors);
-    applyMeasurements(model, trial, options, fitted_pose, factors);
+    applyMeasurements(model, trial, options, fitted, factors);
   } else {
-    applyMeasurements(model, trial, options, fitted_pose, factors);
+    applyMeasurements(model, trial, options, fitted, factors);
     applyManual(model, options.marker_set, factors);
   }
   warnOfUnusualFactors(options, factors);

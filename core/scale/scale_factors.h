@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,17 +28,28 @@ struct ScaleFactors {
   std::vector<std::string> warnings;
 };
 
+/// The model as it stands between two rounds of scaling and fitting.
+struct FittedModel {
+  const Model& model;  ///< scaled by `factors`, with the same markers
+  Eigen::VectorXd q;   ///< (n_coordinates) fitted to the static trial
+  const std::vector<BodyScale>& factors;
+};
+
 /// Factor of a pair = mean measured distance / distance in the model's default pose; of a
 /// measurement = mean over its pairs; later ones overwrite earlier ones axis by axis
 /// (spec/scale.md 1). A frame in which a marker is missing is left out of the mean of its pairs;
 /// OpenSim would drop the measurement.
 /// @param model  with the laboratory's markers
-/// @param fitted_pose  (n_coordinates) pose of the static trial, for measurements that ask for it
+/// A measurement in the fitted pose gives the factor that its bodies have, times measured distance
+/// / distance in the scaled and fitted model: where that stands still the two agree, also when a
+/// pair spans bodies that other measurements size. (Distances of the unscaled model in the fitted
+/// pose, spec/scale.md 7, would give a thigh measured from the pelvis part of the pelvis' factor.)
+/// @param fitted  for measurements in the fitted pose; without it they take the default pose
 /// @throws Error kInputMarkers if a required pair cannot be measured (unknown marker, visible in
 ///   too few frames), kModelReference for an unknown body
 ScaleFactors calcScaleFactors(const Model& model,
                               const MarkerTrajectories& trial,
                               const ScaleOptions& options,
-                              const std::optional<Eigen::VectorXd>& fitted_pose = {});
+                              const FittedModel* fitted = nullptr);
 
 }  // namespace gaitmill

@@ -19,8 +19,8 @@ namespace {
 
 /// Factors that change by less have settled (spec/scale.md 7).
 constexpr double kFactorTolerance = 1e-4;
-/// The published trials take three to six rounds.
-constexpr int kMaxPoseRounds = 30;
+/// The published trials take five to fifteen rounds.
+constexpr int kMaxPoseRounds = 40;
 
 bool measuresInFittedPose(const MarkerSetSpec& set) {
   return std::any_of(set.measurements.begin(),
@@ -118,7 +118,8 @@ ScaleFactors ScaleSolver::findFactors(const MarkerTrajectories& pose, ScaleResul
     }
     const Model sized(applyScaleFactors(bones, factors.bodies, MassDistribution::kPreserved));
     q = findStaticPose(sized, options_.marker_set.placements.front(), pose, options_.fit, q);
-    ScaleFactors next = calcScaleFactors(model, pose, options_, q);
+    const FittedModel fitted{sized, *q, factors.bodies};
+    ScaleFactors next = calcScaleFactors(model, pose, options_, &fitted);
     change = calcChange(factors.bodies, next.bodies);
     factors = std::move(next);
   }
