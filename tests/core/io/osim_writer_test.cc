@@ -334,8 +334,8 @@ void expectSame(const ModelSpec& a, const ModelSpec& b) {
   expectSameAll(actuators, b.actuators);
   expectSameList(passive_forces, b.passive_forces);
   expectSameAll(groups, b.muscle_groups);
-  EXPECT_GE(document_version, 20302);
-  EXPECT_EQ(b.document_version, 40000);  // that of what is written
+  EXPECT_EQ(document_version, 40000);  // that of what is written
+  EXPECT_GE(b.document_version, 20302);
 }
 
 void addPassiveForces(ModelSpec& spec) {
