@@ -63,6 +63,7 @@ class ModelReader {
       readBodies();
       readJoints();
       readConstraints();
+      foldCoupledJoints();
       readMarkers();
       readForces();
     } catch (const Error&) {
@@ -86,6 +87,7 @@ class ModelReader {
   void readJoints();
   void readConstraints();
   void readConstraint(const OsimElement& element, std::set<std::string>& names);
+  void foldCoupledJoints();
   void readMarkers();
   void readForces();
   void readForce(const OsimElement& force);
@@ -363,6 +365,81 @@ void ModelReader::readConstraints() {
   std::set<std::string> names;
   for (const OsimElement& element : model_.objectsOf("ConstraintSet")) {
     collect(element, [&] { readConstraint(element, names); });
+  }
+}
+
+/// The couplers of a joint's coordinates, in their order; empty unless all of them follow one and
+/// the same coordinate, some by a curve, and each drives its axes one to one.
+std::vector<const CouplerSpec*> findCurvedCouplers(const JointSpec& joint,
+                                                   const std::vector<CouplerSpec>& couplers) {
+  std::vector<const CouplerSpec*> found;
+  bool curved = false;
+  for (const CoordinateSpec& coordinate : joint.coordinates) {
+    const auto coupler =
+        std::find_if(couplers.begin(), couplers.end(), [&](const CouplerSpec& candidate) {
+          return candidate.enforced && candidate.dependent == coordinate.name;
+        });
+    if (coupler == couplers.end() ||
+        (!found.empty() && coupler->independent != found.front()->independent)) {
+      return {};
+    }
+    curved = curved || (coupler->function.kind != FunctionSpec::Kind::kLinear &&
+                        coupler->function.kind != FunctionSpec::Kind::kConstant);
+    found.push_back(&*coupler);
+  }
+  const bool direct =
+      std::all_of(joint.axes.begin(), joint.axes.end(), [](const TransformAxisSpec& axis) {
+        return axis.coordinate.empty() ||
+               (axis.function.kind == FunctionSpec::Kind::kLinear && axis.function.y.at(1) == 0.0);
+      });
+  return curved && direct && joint.kind == JointSpec::Kind::kCustom
+             ? found
+             : std::vector<const CouplerSpec*>();
+}
+
+/// A joint all of whose coordinates follow another one by curves (the patella of the Arnold leg)
+/// moves as one coordinate that equals the other, with the curves on its axes: the same motion, by
+/// a coupler that is linear, as in Rajagopal2016.
+void ModelReader::foldCoupledJoints() {
+  for (JointSpec& joint : spec_.joints) {
+    const std::vector<const CouplerSpec*> couplers = findCurvedCouplers(joint, spec_.couplers);
+    const CoordinateSpec* driver =
+        couplers.empty() ? nullptr : spec_.findCoordinate(couplers.front()->independent);
+    if (driver == nullptr) {
+      continue;
+    }
+    CoordinateSpec kept = *driver;
+    kept.name = joint.coordinates.front().name;
+    kept.clamped = false;
+    kept.locked = false;
+    CouplerSpec equal = *couplers.front();
+    equal.function = {FunctionSpec::Kind::kLinear, {}, {1, 0}, 1};
+    equal.scale = 1;
+    for (TransformAxisSpec& axis : joint.axes) {
+      for (const CouplerSpec* coupler : couplers) {
+        if (coupler->dependent == axis.coordinate) {
+          const double slope = axis.function.scale * axis.function.y.at(0);
+          axis.function = coupler->function;
+          axis.function.scale *= coupler->scale * slope;
+          axis.coordinate = kept.name;
+          break;
+        }
+      }
+    }
+    std::vector<CouplerSpec> others;
+    for (const CouplerSpec& coupler : spec_.couplers) {
+      const bool folded = std::any_of(
+          couplers.begin(), couplers.end(), [&](const CouplerSpec* c) { return c == &coupler; });
+      if (!folded) {
+        others.push_back(coupler);
+      }
+    }
+    others.push_back(equal);
+    spec_.couplers = std::move(others);
+    joint.coordinates = {kept};
+    warn(model_,
+         "moves joint '" + joint.name + "' by the one coordinate '" + kept.name + "', equal to '" +
+             driver->name + "', with the curves of its couplers on its axes");
   }
 }
 

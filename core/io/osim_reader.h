@@ -25,7 +25,9 @@ namespace gaitmill {
 /// controllers are ignored.
 ///
 /// An inertia that no body can have is raised to the nearest that one can, with a warning; so are
-/// ball and free joints taken for what turns by the same angles.
+/// ball and free joints taken for what turns by the same angles. A custom joint all of whose
+/// coordinates follow one other coordinate by curves is read as one coordinate equal to that, with
+/// the curves on its axes.
 ///
 /// @param file_name  for error messages only; nothing is opened
 /// @param warnings   if given, one sentence per thing left out is appended

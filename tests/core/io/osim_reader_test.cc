@@ -382,8 +382,12 @@ TEST_F(OsimReaderShared, ArnoldLegReadsAlikeFromBothDocuments) {
   }
   EXPECT_EQ(ellipsoids, 15);
   EXPECT_EQ(cylinders, 2);
-  EXPECT_EQ(countCoordinates(now), 10);
-  EXPECT_EQ(countCoordinates(then), 10);
+  // Of the document's 10 the patella's three are one, which equals the knee angle.
+  EXPECT_EQ(countCoordinates(now), 8);
+  EXPECT_EQ(countCoordinates(then), 8);
+  ASSERT_EQ(now.couplers.size(), 1u);
+  EXPECT_EQ(now.couplers[0].independent, "knee_angle");
+  EXPECT_EQ(now.couplers[0].function.kind, FunctionSpec::Kind::kLinear);
   ASSERT_EQ(now.muscles.size(), 27u);
   ASSERT_EQ(then.muscles.size(), 27u);
   for (std::size_t m = 0; m < now.muscles.size(); ++m) {
