@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "core/base/error.h"
+#include "core/math/ipopt_lock.h"
 
 namespace gaitmill {
 namespace {
@@ -161,8 +162,7 @@ QpReport makeReport(const QpProblem& problem,
 QpReport solveByIpopt(const QpProblem& problem,
                       const IpoptQpOptions& options,
                       Eigen::Ref<Eigen::VectorXd> F) {
-  static std::mutex one_at_a_time;  // MUMPS keeps process-wide state
-  const std::lock_guard<std::mutex> lock(one_at_a_time);
+  const std::lock_guard<std::mutex> lock(ipoptLock());
 
   require(options.exponent > 1, ErrorCode::kInputValue, "Ipopt needs a cost exponent above 1");
   Ipopt::SmartPtr<Ipopt::IpoptApplication> application = IpoptApplicationFactory();
