@@ -23,54 +23,6 @@ constexpr double kMinDamping = 1e-10;
 constexpr double kFirstDamping = 1e-4;
 constexpr double kMaxDamping = 1e8;
 
-/// Place of a coordinate inside its joint: translations come before rotations, rotations in the
-/// order of their axes (spec/model.md 4.1). -1 if it moves several axes and has no single place.
-int findRank(const JointSpec& joint, const std::string& coordinate) {
-  if (joint.kind == JointSpec::Kind::kPlanar) {
-    return joint.coordinates.front().name == coordinate ? 1 : 0;
-  }
-  if (joint.kind != JointSpec::Kind::kCustom) {
-    int place = 1;
-    for (const CoordinateSpec& candidate : joint.coordinates) {
-      if (candidate.name == coordinate) {
-        return place;
-      }
-      ++place;
-    }
-  }
-  int rank = -1;
-  for (std::size_t i = 0; i < joint.axes.size(); ++i) {
-    if (joint.axes[i].coordinate == coordinate) {
-      if (rank >= 0) {
-        return -1;
-      }
-      rank = i < 3 ? static_cast<int>(i) + 1 : 0;
-    }
-  }
-  return rank;
-}
-
-struct JointPlace {
-  BodyIndex parent;
-  int joint = -1;
-  int rank = -1;
-};
-
-JointPlace findJointPlace(const Model& model, int coordinate) {
-  const std::string& name = model.coordinateNames()[static_cast<std::size_t>(coordinate)];
-  const std::vector<JointSpec>& joints = model.spec().joints;
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    for (const CoordinateSpec& candidate : joints[j].coordinates) {
-      if (candidate.name == name) {
-        return {
-            model.getBody(joints[j].parent.body), static_cast<int>(j), findRank(joints[j], name)};
-      }
-    }
-  }
-  check(false, "MarkerFit: a coordinate belongs to no joint");
-  return {};
-}
-
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -84,6 +36,7 @@ MarkerFit::MarkerFit(const Model& model,
     : model_(model),
       options_(options),
       free_(model),
+      movers_(model, free_),
       state_(model),
       q_(free_.count()),
       trial_(free_.count()),
@@ -99,8 +52,6 @@ MarkerFit::MarkerFit(const Model& model,
       columns_(3, model.coordinateCount()),
       step_qp_(free_.count()) {
   findMarkers(tasks, available);
-  findMovers();
-  findProximalPairs();
   findTargets(tasks);
   findBounds(tasks);
   findHeld();
@@ -142,49 +93,6 @@ void MarkerFit::findMarkers(const FitTasks& tasks, const std::vector<std::string
           "carry other names, or the marker set does not fit the file");
 }
 
-void MarkerFit::findMovers() {
-  // Slope of each model coordinate against the free one it follows: columns of the constant J.
-  Eigen::VectorXd rates = Eigen::VectorXd::Zero(free_.count());
-  for (int f = 0; f < free_.count(); ++f) {
-    rates.setZero();
-    rates[f] = 1;
-    free_.expandRates(rates, full_);
-    for (int c = 0; c < model_.coordinateCount(); ++c) {
-      if (full_[c] != 0) {
-        all_movers_.push_back({c, f, full_[c]});
-      }
-    }
-    rotates_.push_back(model_.motionKind(free_.indices()[static_cast<std::size_t>(f)]) !=
-                       MotionKind::kTranslational);
-  }
-  movers_.resize(static_cast<std::size_t>(model_.bodyCount()));
-  for (int b = 0; b < model_.bodyCount(); ++b) {
-    for (const Mover& mover : all_movers_) {
-      if (model_.isDistal(CoordinateIndex(mover.coordinate), BodyIndex(b))) {
-        movers_[static_cast<std::size_t>(b)].push_back(mover);
-      }
-    }
-  }
-}
-
-void MarkerFit::findProximalPairs() {
-  std::vector<JointPlace> places;
-  for (const Mover& mover : all_movers_) {
-    places.push_back(findJointPlace(model_, mover.coordinate));
-  }
-  for (std::size_t j = 0; j < places.size(); ++j) {
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      const bool same_joint = places[j].joint == places[k].joint;
-      const bool upstream =
-          model_.isDistal(CoordinateIndex(all_movers_[j].coordinate), places[k].parent);
-      const bool earlier = places[j].rank >= 0 && places[j].rank < places[k].rank;
-      if (j == k || (same_joint && earlier) || (!same_joint && upstream)) {
-        proximal_pairs_.emplace_back(j, k);
-      }
-    }
-  }
-}
-
 void MarkerFit::findTargets(const FitTasks& tasks) {
   for (const CoordinateTask& task : tasks.coordinates) {
     const CoordinateIndex index = model_.getCoordinate(task.coordinate);
@@ -201,6 +109,9 @@ void MarkerFit::findTargets(const FitTasks& tasks) {
 }
 
 void MarkerFit::findBounds(const FitTasks& tasks) {
+  for (const CoordinateIndex c : free_.indices()) {
+    rotates_.push_back(model_.motionKind(c) != MotionKind::kTranslational);
+  }
   lower_.setConstant(free_.count(), -kInfinity);
   upper_.setConstant(free_.count(), kInfinity);
   for (int f = 0; f < free_.count(); ++f) {
@@ -223,7 +134,7 @@ void MarkerFit::findHeld() {
   std::vector<bool> pulled(static_cast<std::size_t>(free_.count()), false);
   for (const FitMarker& marker : markers_) {
     if (marker.body >= 0) {
-      for (const Mover& mover : movers_[static_cast<std::size_t>(marker.body)]) {
+      for (const Mover& mover : movers_.of(BodyIndex(marker.body))) {
         pulled[static_cast<std::size_t>(mover.free)] = true;
       }
     }
@@ -365,7 +276,7 @@ void MarkerFit::addMarker(std::size_t marker) {
   const Eigen::Vector3d residual = residuals_.col(static_cast<Eigen::Index>(marker));
   const Eigen::Vector3d p_GM = residual + measured_.col(static_cast<Eigen::Index>(marker));
   const Matrix6X& screws = state_.screws();
-  const std::vector<Mover>& movers = movers_[static_cast<std::size_t>(m.body)];
+  const std::vector<Mover>& movers = movers_.of(BodyIndex(m.body));
   // dx/dq of each mover, and J'W J, J'W r on the fly.
   for (std::size_t a = 0; a < movers.size(); ++a) {
     const int c = movers[a].coordinate;
@@ -385,9 +296,9 @@ void MarkerFit::addMarker(std::size_t marker) {
 
 // sum_i w_i r_i . d2x_i/dq_j dq_k = w_j . sum_i w_i (dx_i/dq_k x r_i) for j proximal to k.
 void MarkerFit::addSecondDerivatives() {
-  for (const auto& [j, k] : proximal_pairs_) {
-    const Mover& proximal = all_movers_[j];
-    const Mover& distal = all_movers_[k];
+  for (const auto& [j, k] : movers_.proximalPairs()) {
+    const Mover& proximal = movers_.all()[j];
+    const Mover& distal = movers_.all()[k];
     const double curvature =
         proximal.slope * distal.slope *
         state_.screws().col(proximal.coordinate).head<3>().dot(moments_.col(distal.coordinate));

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstddef>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -10,6 +8,7 @@
 #include "core/base/index.h"
 #include "core/data/marker_set.h"
 #include "core/math/box_qp.h"
+#include "core/model/coordinate_movers.h"
 #include "core/model/free_coordinates.h"
 #include "core/model/model.h"
 
@@ -92,12 +91,7 @@ class MarkerFit {
   double calcObservability() const;
 
  private:
-  /// A model coordinate that moves a body, and the free coordinate it follows.
-  struct Mover {
-    int coordinate;
-    int free;
-    double slope;
-  };
+  using Mover = CoordinateMovers::Mover;
   struct FitMarker {
     int body;
     Eigen::Vector3d location;
@@ -109,8 +103,6 @@ class MarkerFit {
   };
 
   void findMarkers(const FitTasks& tasks, const std::vector<std::string>& available);
-  void findMovers();
-  void findProximalPairs();
   void findTargets(const FitTasks& tasks);
   void findBounds(const FitTasks& tasks);
   void findHeld();
@@ -131,16 +123,13 @@ class MarkerFit {
   const Model& model_;
   MarkerFitOptions options_;
   FreeCoordinates free_;
+  CoordinateMovers movers_;
   ModelState state_;
   std::vector<std::string> names_;
   std::vector<double> weights_;
   std::vector<std::string> unused_;
   std::vector<std::string> held_;
   std::vector<FitMarker> markers_;
-  std::vector<std::vector<Mover>> movers_;  ///< per body: what moves it
-  std::vector<Mover> all_movers_;           ///< every coordinate that follows a free one
-  /// Pairs (j, k) of all_movers_ with j proximal to k or equal.
-  std::vector<std::pair<std::size_t, std::size_t>> proximal_pairs_;
   std::vector<Target> targets_;
   Eigen::VectorXd lower_, upper_;  ///< (n_free) bounds
   std::vector<bool> rotates_;      ///< per free coordinate
