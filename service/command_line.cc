@@ -175,7 +175,9 @@ void addRunFiles(CLI::App& command, RunOptions& options) {
   const auto add = [&](const char* flag, std::string& path, const char* help) {
     command.add_option(flag, path, help)->check(CLI::ExistingFile);
   };
-  add("--static", options.static_markers, "Standing trial for scaling, TRC");
+  add("--static",
+      options.static_markers,
+      "Standing trial for scaling, TRC; without it, the movement is fitted");
   add("--static2", options.static_markers_2, "Second pose for marker placement, TRC");
   add("--markers", options.markers, "The movement, TRC");
   add("--grf", options.ground_reaction, "Ground reactions, MOT or STO");

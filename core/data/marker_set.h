@@ -2,6 +2,7 @@
 
 #include <array>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -120,6 +121,9 @@ struct MarkerSetSpec {
   std::string name;
   std::string description;
   std::vector<MarkerSpec> markers;  ///< added to the model, replacing those of the same name
+  /// How far a marker may sit from its place on the model, one standard deviation along one axis
+  /// [m]; what scaling by the motion believes. Not listed: by what the marker is used for.
+  std::map<std::string, double> place_deviations;
   std::vector<VirtualMarkerSpec> virtual_markers;  ///< added to the static trials
   /// Factor of every body before anything is measured, and in the end of those that nothing
   /// measures: the subject's height over the model's.

@@ -225,6 +225,7 @@ void Builder::addMarkers() {
     const bool fixed =
         placed.mark->kind == LandmarkKind::kJointCenter || isOnRaisedShoulder(placed);
     result_.set.markers.push_back({placed.marker, placed.body, placed.mark->location, fixed});
+    result_.set.place_deviations[placed.marker] = placed.mark->placement_deviation;
   }
 }
 

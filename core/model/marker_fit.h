@@ -72,7 +72,11 @@ class MarkerFit {
   const std::vector<std::string>& unusedTasks() const { return unused_; }
   /// Free coordinates that no marker and no task pulls; the fit holds them where they start.
   const std::vector<std::string>& heldCoordinates() const { return held_; }
+  const Model& model() const { return model_; }
   const FreeCoordinates& freeCoordinates() const { return free_; }
+  /// Bounds of the free coordinates, infinite where there are none, (n_free) [rad|m].
+  const Eigen::VectorXd& lowerBounds() const { return lower_; }
+  const Eigen::VectorXd& upperBounds() const { return upper_; }
 
   /// @param measured  (3 x markers().size()) [m] in ground, NaN = missing
   /// @param q         (n_coordinates) [rad|m] in: where to start; out: the best pose

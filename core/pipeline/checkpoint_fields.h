@@ -368,9 +368,49 @@ void visitFields(Archive& archive, Access<Archive, PlacementResult>& value) {
 }
 
 template <class Archive>
+void visitFields(Archive& archive, Access<Archive, SizeEstimate>& value) {
+  auto& [name, factor, expected, deviations, at_bound] = value;
+  archive(name, factor, expected, deviations, at_bound);
+}
+
+template <class Archive>
+void visitFields(Archive& archive, Access<Archive, OffsetEstimate>& value) {
+  auto& [marker, distance, deviations] = value;
+  archive(marker, distance, deviations);
+}
+
+template <class Archive>
+void visitFields(Archive& archive, Access<Archive, MotionFitResult>& value) {
+  auto& [times,
+         markers,
+         sizes,
+         offsets,
+         moved_markers,
+         removed_markers,
+         frames_rms_before,
+         frames_rms,
+         motion_rms_before,
+         motion_rms,
+         iterations,
+         converged] = value;
+  archive(times,
+          markers,
+          sizes,
+          offsets,
+          moved_markers,
+          removed_markers,
+          frames_rms_before,
+          frames_rms,
+          motion_rms_before,
+          motion_rms,
+          iterations,
+          converged);
+}
+
+template <class Archive>
 void visitFields(Archive& archive, Access<Archive, ScaleResult>& value) {
-  auto& [model, factors, measurements, placements, mass, pose_rounds, warnings] = value;
-  archive(model, factors, measurements, placements, mass, pose_rounds, warnings);
+  auto& [model, factors, measurements, placements, motion, mass, pose_rounds, warnings] = value;
+  archive(model, factors, measurements, placements, motion, mass, pose_rounds, warnings);
 }
 
 template <class Archive>

@@ -89,6 +89,9 @@ struct Job {
   void warn(const std::string& sentence);
 };
 
+/// Whether the subject's sizes are fitted to the motion: as set, else where no static trial came.
+bool scalesByMotion(const TrialInput& input, const PipelineSettings& settings);
+
 /// Checks that the stages have the parts and numbers of the subject that they need. Looks at no
 /// byte of a file. @throws Error kInputMissing, kInputValue naming the part
 void checkParts(const TrialInput& input, const PipelineSettings& settings);

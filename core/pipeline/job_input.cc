@@ -118,11 +118,10 @@ void openModels(Job& job) {
 
 void openMotion(Intake& intake, Job& job) {
   const bool measured = job.settings.runs(Stage::kIk);
-  if (measured) {
+  if (measured || scalesByMotion(*job.input, job.settings)) {
     job.markers = intake.readMovement(*job.input->markers).markers;
-    return;
   }
-  if (job.settings.last <= Stage::kIk) {
+  if (measured || job.settings.last <= Stage::kIk) {
     return;
   }
   const InputFile& file = *job.input->coordinates;
@@ -148,10 +147,21 @@ bool needsForces(const PipelineSettings& settings) {
 
 }  // namespace
 
+bool scalesByMotion(const TrialInput& input, const PipelineSettings& settings) {
+  return settings.runs(Stage::kScale) &&
+         (settings.scale_method == ScaleMethod::kMotion ||
+          (settings.scale_method == ScaleMethod::kAuto && !input.static_markers));
+}
+
 void checkParts(const TrialInput& input, const PipelineSettings& settings) {
   if (settings.runs(Stage::kScale)) {
     needPositive(input.mass, "mass", "kilograms");
-    needFile(input.static_markers, "static", "scaling measures a static trial");
+    if (scalesByMotion(input, settings)) {
+      needFile(input.markers, "markers", "scaling without a static trial fits the movement");
+      needPositive(input.height, "height", "metres");
+    } else {
+      needFile(input.static_markers, "static", "scaling by marker distances measures it");
+    }
   } else {
     needFile(input.model, "model", "a scaled model is needed where scaling is not run");
   }
@@ -212,7 +222,7 @@ Job openJob(const TrialInput& input,
   // The movement first: its laboratory frame holds for the other files.
   Intake intake(job.settings);
   openMotion(intake, job);
-  if (job.settings.runs(Stage::kScale)) {
+  if (job.settings.runs(Stage::kScale) && !scalesByMotion(input, job.settings)) {
     openStaticPoses(intake, job);
   }
   if (needsForces(job.settings)) {

@@ -21,6 +21,7 @@
 #include "core/pipeline/job_emg.h"
 #include "core/pipeline/model_coordinates.h"
 #include "core/rra/rra_solver.h"
+#include "core/scale/motion_scale.h"
 #include "core/scale/scale_solver.h"
 #include "core/so/so_solver.h"
 
@@ -58,7 +59,16 @@ void runScale(Job& job) {
   options.marker_set = openMarkerSet(*job.input, job.settings, job.models_folder);
   options.subject_mass = job.input->mass;
   options.fiber_damping = job.settings.fiber_damping;
-  job.scale = ScaleSolver(job.generic, options).solve(job.static_poses);
+  if (scalesByMotion(*job.input, job.settings)) {
+    MotionScaleOptions motion;
+    motion.subject_height = job.input->height;
+    motion.range = job.settings.ik_range;
+    motion.warn_rms = job.settings.ik_warn_rms;
+    job.scale = MotionScaleSolver(job.generic, options, motion)
+                    .solve(job.markers, makeProgress(Stage::kScale, job));
+  } else {
+    job.scale = ScaleSolver(job.generic, options).solve(job.static_poses);
+  }
   takeWarnings("scale", job.scale->warnings, job);
 }
 

@@ -46,6 +46,32 @@ Json summarizeStages(const Job& job) {
   return stages;
 }
 
+Json summarizeMotionFit(const MotionFitResult& fit) {
+  Json sizes = Json::array();
+  for (const SizeEstimate& size : fit.sizes) {
+    sizes.push_back({{"name", size.name},
+                     {"factor", toJsonNumber(size.factor)},
+                     {"expected", toJsonNumber(size.expected)},
+                     {"deviations", toJsonNumber(size.deviations)},
+                     {"at_bound", size.at_bound}});
+  }
+  Json offsets = Json::array();
+  for (const OffsetEstimate& offset : fit.offsets) {
+    offsets.push_back({{"marker", offset.marker},
+                       {"distance_m", toJsonNumber(offset.distance)},
+                       {"deviations", toJsonNumber(offset.deviations)}});
+  }
+  return {{"frames_s", fit.times},
+          {"converged", fit.converged},
+          {"iterations", fit.iterations},
+          {"frames_rms_before_m", toJsonNumber(fit.frames_rms_before)},
+          {"frames_rms_m", toJsonNumber(fit.frames_rms)},
+          {"motion_rms_before_m", toJsonNumber(fit.motion_rms_before)},
+          {"motion_rms_m", toJsonNumber(fit.motion_rms)},
+          {"sizes", sizes},
+          {"offsets", offsets}};
+}
+
 Json summarizeScale(const ScaleResult& scale) {
   Json factors = Json::object();
   for (const BodyScale& body : scale.factors) {
@@ -57,7 +83,14 @@ Json summarizeScale(const ScaleResult& scale) {
                           {"max_error_m", toJsonNumber(placement.max_error)},
                           {"worst_marker", placement.worst_marker}});
   }
-  return {{"factors", factors}, {"mass_kg", toJsonNumber(scale.mass)}, {"placements", placements}};
+  Json summary = {{"method", scale.motion ? "motion" : "static"},
+                  {"factors", factors},
+                  {"mass_kg", toJsonNumber(scale.mass)},
+                  {"placements", placements}};
+  if (scale.motion) {
+    summary["motion_fit"] = summarizeMotionFit(*scale.motion);
+  }
+  return summary;
 }
 
 Json summarizeSubject(const Job& job) {

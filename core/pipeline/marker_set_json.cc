@@ -50,16 +50,21 @@ std::optional<double> readAngleOrLength(JsonFields& fields, const std::string& s
   return std::nullopt;
 }
 
-std::vector<MarkerSpec> readMarkers(JsonFields& document) {
-  std::vector<MarkerSpec> markers;
+void readMarkers(JsonFields& document, MarkerSetSpec& set) {
   for (JsonFields& fields : document.objects("markers")) {
-    markers.push_back({fields.text("name"),
-                       fields.text("body"),
-                       fields.vector3("location_m"),
-                       fields.flag("fixed", false)});
+    set.markers.push_back({fields.text("name"),
+                           fields.text("body"),
+                           fields.vector3("location_m"),
+                           fields.flag("fixed", false)});
+    if (fields.has("place_deviation_m")) {
+      const double deviation = fields.number("place_deviation_m");
+      if (deviation <= 0) {
+        fields.refuse("place_deviation_m", "expected a positive number of metres");
+      }
+      set.place_deviations[set.markers.back().name] = deviation;
+    }
     fields.finish();
   }
-  return markers;
 }
 
 using Rule = VirtualMarkerSpec::Rule;
@@ -261,13 +266,17 @@ Json writePoint(const Eigen::Vector3d& point) {
   return {point.x(), point.y(), point.z()};
 }
 
-Json writeMarkers(const std::vector<MarkerSpec>& markers) {
+Json writeMarkers(const MarkerSetSpec& set) {
   Json list = Json::array();
-  for (const MarkerSpec& marker : markers) {
+  for (const MarkerSpec& marker : set.markers) {
     list.push_back({{"name", marker.name},
                     {"body", marker.body},
                     {"location_m", writePoint(marker.location)},
                     {"fixed", marker.fixed}});
+    const auto deviation = set.place_deviations.find(marker.name);
+    if (deviation != set.place_deviations.end()) {
+      list.back()["place_deviation_m"] = deviation->second;
+    }
   }
   return list;
 }
@@ -382,7 +391,7 @@ std::string writeMarkerSet(const MarkerSetSpec& set, const ModelSpec& model) {
   Json json;
   json["name"] = set.name;
   json["description"] = set.description;
-  json["markers"] = writeMarkers(set.markers);
+  json["markers"] = writeMarkers(set);
   json["virtual_markers"] = writeVirtualMarkers(set.virtual_markers);
   json["scale"] = writeScale(set);
   json["placement"] = Json::array();
@@ -403,7 +412,7 @@ MarkerSetSpec readMarkerSet(const InputFile& file) {
   MarkerSetSpec set;
   set.name = fields.text("name");
   set.description = fields.text("description", "");
-  set.markers = readMarkers(fields);
+  readMarkers(fields, set);
   set.virtual_markers = readVirtualMarkers(fields);
   readScale(fields.object("scale"), set);
   for (JsonFields& placement : fields.objects("placement")) {

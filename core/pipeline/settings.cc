@@ -93,6 +93,11 @@ void visitTrial(Fields& fields, PipelineSettings& settings) {
 template <class Fields>
 void visitScale(Fields& fields, PipelineSettings& settings) {
   fields.text("marker_set", settings.marker_set);
+  fields.choice("method",
+                Choices<ScaleMethod>{{"auto", ScaleMethod::kAuto},
+                                     {"static", ScaleMethod::kStatic},
+                                     {"motion", ScaleMethod::kMotion}},
+                settings.scale_method);
   fields.number("fiber_damping", {0, 10}, settings.fiber_damping);
 }
 

@@ -98,6 +98,13 @@ struct EmgSettings {
   EmgChannelOptions mapping;
 };
 
+/// Where the subject's sizes come from.
+enum class ScaleMethod {
+  kAuto,    ///< from the static trial where there is one, else from the motion
+  kStatic,  ///< from marker distances of a static trial
+  kMotion,  ///< fitted to the motion together with marker offsets and poses
+};
+
 /// A settings document (models/settings/*.json) as values. Every field has a default, and the
 /// defaults together run any trial with the model's own marker names.
 struct PipelineSettings {
@@ -120,6 +127,7 @@ struct PipelineSettings {
   std::optional<PaperTrial> paper_trial;
 
   std::string marker_set = "rajagopal2016";  ///< name of models/marker_sets/*.json
+  ScaleMethod scale_method = ScaleMethod::kAuto;
   std::optional<double> fiber_damping;
 
   double ik_warn_rms = 0.02;  ///< [m]

@@ -65,12 +65,9 @@ ScaleResult ScaleSolver::solve(const std::vector<MarkerTrajectories>& recorded) 
     addVirtualMarkers(options_.marker_set.virtual_markers, pose);
   }
   stretchModel(static_poses, result);
-  if (options_.subject_mass > 0) {
-    setTotalMass(result.model, options_.subject_mass, InertiaScaling::kWithMass);
-  }
+  finishSubject(options_, result.model);
   result.mass = result.model.calcTotalMass();
   place(static_poses, result);
-  overrideMuscles(result.model);
   return result;
 }
 
@@ -142,11 +139,14 @@ void ScaleSolver::place(const std::vector<MarkerTrajectories>& static_poses,
   }
 }
 
-void ScaleSolver::overrideMuscles(ModelSpec& model) const {
+void finishSubject(const ScaleOptions& options, ModelSpec& model) {
+  if (options.subject_mass > 0) {
+    setTotalMass(model, options.subject_mass, InertiaScaling::kWithMass);
+  }
   for (MuscleSpec& muscle : model.muscles) {
     muscle.max_contraction_velocity =
-        options_.max_contraction_velocity.value_or(muscle.max_contraction_velocity);
-    muscle.fiber_damping = options_.fiber_damping.value_or(muscle.fiber_damping);
+        options.max_contraction_velocity.value_or(muscle.max_contraction_velocity);
+    muscle.fiber_damping = options.fiber_damping.value_or(muscle.fiber_damping);
   }
 }
 

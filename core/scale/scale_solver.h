@@ -30,10 +30,13 @@ class ScaleSolver {
   void stretchModel(const std::vector<MarkerTrajectories>& static_poses, ScaleResult& result) const;
   ScaleFactors findFactors(const MarkerTrajectories& pose, ScaleResult& result) const;
   void place(const std::vector<MarkerTrajectories>& static_poses, ScaleResult& result) const;
-  void overrideMuscles(ModelSpec& model) const;
 
   ModelSpec generic_;
   ScaleOptions options_;
 };
+
+/// What scaling does to a stretched model whatever gave its factors: total mass, and the muscle
+/// parameters that the options override.
+void finishSubject(const ScaleOptions& options, ModelSpec& model);
 
 }  // namespace gaitmill

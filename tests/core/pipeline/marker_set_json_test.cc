@@ -85,6 +85,10 @@ TEST(MarkerSetJson, FaultsNameThePathOfTheField) {
       {R"({"name": "x", "markers": [{"name": "A", "location_m": [1, 2, 3]}]})",
        ErrorCode::kInputMissing,
        "markers[0].body"},
+      {R"({"name": "x", "markers": [{"name": "A", "body": "b", "location_m": [1, 2, 3],
+          "place_deviation_m": 0}]})",
+       ErrorCode::kSettingsValue,
+       "markers[0].place_deviation_m"},
       {R"({"name": "x", "scale": {"order": ["manual"]}})",
        ErrorCode::kSettingsValue,
        "scale.order"},
@@ -146,7 +150,8 @@ TEST(MarkerSetJson, FaultsNameThePathOfTheField) {
 
 /// A set in which every field has a value of its own.
 constexpr const char* kFullSet = R"({"name": "full", "description": "all",
-  "markers": [{"name": "K", "body": "femur_r", "location_m": [0, -0.4, 0], "fixed": true}],
+  "markers": [{"name": "K", "body": "femur_r", "location_m": [0, -0.4, 0], "fixed": true,
+               "place_deviation_m": 0.02}],
   "virtual_markers": [{"name": "K", "rule": "mean", "sources": ["A", "B"]},
                       {"name": "H", "rule": "harrington_2007_left", "sources": ["A", "B", "C"]}],
   "scale": {"order": ["manual", "measurements"], "time_range_s": [0.5, 1], "size_ratio": 1.07,
@@ -169,6 +174,7 @@ TEST(MarkerSetJson, WrittenSetReadsBackTheSame) {
   EXPECT_EQ(set.virtual_markers[1].rule, VirtualMarkerSpec::Rule::kLeftHipCenter);
   EXPECT_EQ(set.virtual_markers[1].sources.size(), 3U);
   EXPECT_EQ(set.size_ratio, 1.07);
+  EXPECT_EQ(set.place_deviations.at("K"), 0.02);
   const MeasurementSpec& measurement = set.measurements.at(0);
   EXPECT_TRUE(measurement.in_fitted_pose);
   EXPECT_EQ(measurement.alternative_of, "g");

@@ -165,6 +165,8 @@ TEST(CheckInput, AcceptsPartsByPresence) {
   input.mass = 70;
   input.height = 1.7;
   EXPECT_NO_THROW(Pipeline().checkInput(input, {"settings.json", "{}"}));
+  input.static_markers.reset();
+  EXPECT_NO_THROW(Pipeline().checkInput(input, {"settings.json", "{}"}));
 }
 
 TEST(CheckInput, NamesThePartThatIsMissing) {
@@ -178,9 +180,20 @@ TEST(CheckInput, NamesThePartThatIsMissing) {
   };
   const std::vector<Case> cases = {
       {[](TrialInput& input) { input.static_markers.reset(); },
-       "{}",
+       R"({"scale": {"method": "static"}})",
        ErrorCode::kInputMissing,
        "static"},
+      {[](TrialInput& input) { input.markers.reset(); },
+       R"({"scale": {"method": "motion"}, "stages": {"last": "scale"}})",
+       ErrorCode::kInputMissing,
+       "markers"},
+      {[](TrialInput& input) {
+         input.static_markers.reset();
+         input.height = 0;
+       },
+       R"({"stages": {"last": "scale"}})",
+       ErrorCode::kInputValue,
+       "height"},
       {[](TrialInput& input) { input.markers.reset(); }, "{}", ErrorCode::kInputMissing, "markers"},
       {[](TrialInput& input) { input.ground_reaction.reset(); },
        "{}",
@@ -206,6 +219,40 @@ TEST(CheckInput, NamesThePartThatIsMissing) {
     EXPECT_EQ(error.code(), one.code) << error.what();
     EXPECT_EQ(error.where().field, one.field) << error.what();
   }
+}
+
+// Markers, mass and height are enough: without a static trial the motion sizes the subject.
+TEST(PipelineTest, AJobWithoutAStaticTrialScalesByTheMotion) {
+  TrialInput input = readSampleInput();
+  input.static_markers.reset();
+  input.emg.reset();
+  const PipelineResult result = Pipeline().run(input, makeSettings(R"({"last": "ik"})"), {});
+  const nlohmann::json summary = nlohmann::json::parse(result.files.at("summary.json"));
+  EXPECT_EQ(summary["scale"]["method"], "motion");
+  const nlohmann::json& fit = summary["scale"]["motion_fit"];
+  EXPECT_EQ(fit["converged"], true);
+  EXPECT_EQ(fit["frames_s"].size(), 20U);
+  EXPECT_EQ(fit["sizes"].size(), 11U);
+  EXPECT_LT(fit["motion_rms_m"], fit["motion_rms_before_m"]);
+  const TimeSeries errors = readTable(result.files.at("ik_marker_errors.sto"), "e.sto").table;
+  EXPECT_NEAR(errors.values.col(errors.getColumn("marker_error_RMS")).mean(),
+              fit["motion_rms_m"],
+              tol(1e-6));
+}
+
+// A static trial is left aside where the settings say so.
+TEST(PipelineTest, TheSettingsMayAskForTheMotion) {
+  TrialInput input = readSampleInput();
+  const PipelineResult with_static = Pipeline().run(
+      input,
+      {"settings.json", R"({"stages": {"last": "scale"}, "scale": {"method": "motion"}})"},
+      {});
+  input.static_markers.reset();
+  const PipelineResult without = Pipeline().run(
+      input,
+      {"settings.json", R"({"stages": {"last": "scale"}, "scale": {"method": "motion"}})"},
+      {});
+  EXPECT_EQ(with_static.files.at("scaled_model.osim"), without.files.at("scaled_model.osim"));
 }
 
 // The sample's markers under other names, with a marker set that knows them.
