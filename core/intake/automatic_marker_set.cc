@@ -29,6 +29,8 @@ constexpr double kMinVisiblePlacement = 0.5;
 constexpr double kBonyDeviation = 0.012;
 /// Markers that a body needs to show all its rotations.
 constexpr int kMarkersOfABody = 3;
+/// Without so many others the markers on the shoulders are needed to see the trunk turn.
+constexpr int kMarkersOfATrunk = 2;
 /// Pull of a coordinate that few markers show: at a lever of 6 cm and weight 1 it costs 3 % of the
 /// movement, at 25 cm 0.2 % [m^2/rad^2].
 constexpr double kHoldingWeight = 1e-4;
@@ -50,6 +52,7 @@ struct SkinRow {
 };
 constexpr SkinRow kSkin[] = {
     {"pelvis", 0.008, 0.012},
+    {"torso", 0.010, 0.015},
     {"femur", 0.015, 0.018},
     {"tibia", 0.010, 0.012},
     {"calcn", 0.008, 0.010},
@@ -64,6 +67,11 @@ std::string findStem(const std::string& body) {
 
 bool isOnHead(const Landmark& mark) {
   return mark.body == "torso" && mark.location.y() > kHeadHeight;
+}
+
+bool isOnShoulder(const Landmark& mark) {
+  return mark.body == "torso" && !isOnHead(mark) && mark.location.y() > kShoulderHeight &&
+         std::abs(mark.location.z()) > kShoulderWidth;
 }
 
 double calcIkWeight(const Landmark& mark) {
@@ -132,6 +140,7 @@ class Builder {
   const Placed* findPlaced(const std::string& landmark) const;
   bool isMeasured(const std::string& landmark) const;
   bool isOnRaisedShoulder(const Placed& placed) const;
+  int countOnTrunk() const;
   std::optional<std::string> findPoint(const std::string& name, Side side);
   std::string makeMean(const std::vector<std::string>& marks);
   std::vector<std::string> findBodies(const MeasurementLine& line,
@@ -176,9 +185,7 @@ void Builder::findLandmarks() {
 }
 
 bool Builder::isOnRaisedShoulder(const Placed& placed) const {
-  const Landmark& mark = *placed.mark;
-  return raised_arms_.count(mark.side) > 0 && mark.body == "torso" && !isOnHead(mark) &&
-         mark.location.y() > kShoulderHeight && std::abs(mark.location.z()) > kShoulderWidth;
+  return raised_arms_.count(placed.mark->side) > 0 && isOnShoulder(*placed.mark);
 }
 
 Eigen::Vector3d calcMean(const MarkerTrajectories& trial, int marker, const TimeRange& range) {
@@ -192,6 +199,18 @@ Eigen::Vector3d calcMean(const MarkerTrajectories& trial, int marker, const Time
     }
   }
   return sum / seen;
+}
+
+/// Markers of the trunk that are neither on the head nor on the shoulders.
+int Builder::countOnTrunk() const {
+  int count = 0;
+  for (const Placed& placed : placed_) {
+    const Landmark& mark = *placed.mark;
+    const bool counts = mark.body == "torso" && !isOnHead(mark) && !isOnShoulder(mark) &&
+                        mark.kind != LandmarkKind::kDerived;
+    count += counts ? 1 : 0;
+  }
+  return count;
 }
 
 // The shoulder blade turns with a raised arm and takes its markers along, which the model's torso
@@ -211,6 +230,10 @@ void Builder::findRaisedArms() {
     if (arm.y() > -kRaisedArm * arm.norm()) {
       raised_arms_.insert(side);
     }
+  }
+  // Without other markers on the trunk its pose is theirs to tell.
+  if (countOnTrunk() < kMarkersOfATrunk) {
+    raised_arms_.clear();
   }
   if (!raised_arms_.empty()) {
     result_.notes.emplace_back(
