@@ -177,11 +177,11 @@ void addRunFiles(CLI::App& command, RunOptions& options) {
   };
   add("--static",
       options.static_markers,
-      "Standing trial for scaling, TRC; without it, the movement is fitted");
-  add("--static2", options.static_markers_2, "Second pose for marker placement, TRC");
-  add("--markers", options.markers, "The movement, TRC");
-  add("--grf", options.ground_reaction, "Ground reactions, MOT or STO");
-  add("--emg", options.emg, "EMG envelopes, MOT, STO or CSV; for comparison only");
+      "Standing trial for scaling, TRC or C3D; without it, the movement is fitted");
+  add("--static2", options.static_markers_2, "Second pose for marker placement, TRC or C3D");
+  add("--markers", options.markers, "The movement, TRC or C3D; a C3D brings its forces and EMG");
+  add("--grf", options.ground_reaction, "Ground reactions, MOT, STO or C3D");
+  add("--emg", options.emg, "EMG, MOT, STO, CSV, ANC or C3D; for comparison only");
   add("--model", options.model, "Model document; scaled, if scaling is left out");
   add("--coordinates", options.coordinates, "Kinematics, MOT or STO; to start after IK");
 }

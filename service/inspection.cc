@@ -1,10 +1,14 @@
 #include "service/inspection.h"
 
+#include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/intake/marker_faults.h"
+#include "core/io/c3d_reader.h"
 #include "core/io/emg_reader.h"
 #include "core/io/files.h"
 #include "core/io/grf_reader.h"
@@ -118,27 +122,98 @@ api::GaitEventView makeEvent(const GaitEvent& event) {
   return {is_strike ? "foot_strike" : "toe_off", footName(event.foot), event.time};
 }
 
+api::RecordingView makeRecording(const C3dFile& file) {
+  api::RecordingView view;
+  for (const C3dPlate& plate : file.plates) {
+    view.plates.push_back({plate.name, plate.type, plate.refusal});
+  }
+  view.analog_channels = file.analog.labels;
+  view.analog_rate = file.analog_rate;
+  for (const C3dEvent& event : file.events) {
+    view.events.push_back({event.label, event.context, event.time});
+  }
+  return view;
+}
+
+void putMarkerFaults(MarkerTrajectories& markers, UnderstoodFile& understood) {
+  constexpr std::size_t kMostFaults = 200;
+  const MarkerRepair repair = repairMarkers({}, markers);
+  for (const MarkerFault& fault : repair.faults) {
+    if (understood.marker_faults.size() == kMostFaults) {
+      return;
+    }
+    understood.marker_faults.push_back(
+        {faultName(fault.kind),
+         actionName(fault.action),
+         fault.marker,
+         fault.other,
+         fault.start,
+         fault.end,
+         fault.last_frame - fault.first_frame + 1,
+         std::isnan(fault.size) ? std::nullopt : std::optional<double>(fault.size)});
+  }
+}
+
+MarkerTrajectories readMarkerFile(const OpenedFile& file,
+                                  UnderstoodFile& understood,
+                                  std::vector<std::string>& warnings) {
+  if (!isC3d(file.bytes)) {
+    TrcFile trc = readTrc(file.bytes, file.name);
+    understood.format = "trc";
+    understood.units = trc.units;
+    warnings = std::move(trc.warnings);
+    return std::move(trc.markers);
+  }
+  C3dFile c3d = readC3d(file.bytes, file.name);
+  understood.format = "c3d";
+  understood.units = c3d.units;
+  understood.recording = makeRecording(c3d);
+  warnings = std::move(c3d.warnings);
+  return std::move(c3d.markers);
+}
+
 void Inspection::inspectMarkers(const OpenedFile& file,
                                 UnderstoodFile& understood,
                                 Warnings& warnings) {
-  TrcFile trc = readTrc(file.bytes, file.name);
-  understood.format = "trc";
-  putTimes(trc.markers.time, understood);
-  if (trc.markers.rate > 0) {
-    understood.rate = trc.markers.rate;
+  MarkerTrajectories markers = readMarkerFile(file, understood, warnings);
+  putTimes(markers.time, understood);
+  if (markers.rate > 0) {
+    understood.rate = markers.rate;
   }
-  understood.units = trc.units;
   understood.labels_kind = "markers";
-  understood.labels = trc.markers.names;
-  warnings = trc.warnings;
+  understood.labels = markers.names;
+  putMarkerFaults(markers, understood);
   if (understood.part == "markers") {
-    movement_ = std::move(trc.markers);
+    movement_ = std::move(markers);
   }
+}
+
+// Feet and contacts of its plates need the laboratory's axes, which the job settles.
+void inspectPlates(const OpenedFile& file,
+                   UnderstoodFile& understood,
+                   std::vector<std::string>& warnings) {
+  C3dFile c3d = readC3d(file.bytes, file.name);
+  understood.format = "c3d";
+  understood.recording = makeRecording(c3d);
+  understood.labels_kind = "forces";
+  for (const ExternalForce& force : c3d.ground_reaction.forces) {
+    understood.labels.push_back(force.name);
+  }
+  require(!understood.labels.empty(),
+          ErrorCode::kGrfColumns,
+          "the file has no force plate that can be read",
+          {file.name, 0, 0, ""});
+  putTimes(c3d.ground_reaction.time, understood);
+  warnings = std::move(c3d.warnings);
 }
 
 void Inspection::inspectForces(const OpenedFile& file,
                                UnderstoodFile& understood,
                                Warnings& warnings) {
+  if (isC3d(file.bytes)) {
+    inspectPlates(file, understood, warnings);
+    return;
+  }
   const TableFile table = inspectTable(file, understood);
   understood.labels_kind = "forces";
   understood.labels = findForceFamilies(table.table.labels);

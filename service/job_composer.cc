@@ -16,6 +16,13 @@ const api::UnderstoodFile* findPart(const api::TrialView& trial, const std::stri
   return found == trial.files.end() ? nullptr : &*found;
 }
 
+bool hasForces(const api::UnderstoodFile& file) {
+  return file.recording &&
+         std::any_of(file.recording->plates.begin(),
+                     file.recording->plates.end(),
+                     [](const api::PlateView& plate) { return plate.refusal.empty(); });
+}
+
 // What the quota counts: the frames of the movement.
 std::int64_t countFrames(const api::TrialView& trial) {
   for (const char* part : {"markers", "coordinates"}) {
@@ -140,6 +147,11 @@ void JobComposer::checkInput(const api::TrialView& trial,
   const auto nothing = api::makeByteSource("");
   for (const api::UnderstoodFile& file : trial.files) {
     input.parts[file.part] = {file.name, nothing};
+  }
+  // Without its bytes nobody sees that the markers' file brings forces along.
+  const api::UnderstoodFile* const markers = findPart(trial, "markers");
+  if (markers != nullptr && hasForces(*markers) && input.parts.count("grf") == 0) {
+    input.parts["grf"] = input.parts["markers"];
   }
   if (!model_id.empty()) {
     input.parts["model"] = {model_id, nothing};

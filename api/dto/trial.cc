@@ -79,6 +79,58 @@ EmgView toEmg(const json& object) {
   return emg;
 }
 
+json toJson(const PlateView& plate) {
+  return {{"name", plate.name}, {"type", plate.type}, {"refusal", textOrNull(plate.refusal)}};
+}
+
+json toJson(const MarkedEventView& event) {
+  return {{"label", event.label}, {"context", event.context}, {"time_s", event.time}};
+}
+
+json toJson(const MarkerFaultView& fault) {
+  return {{"fault", fault.fault},
+          {"action", fault.action},
+          {"marker", fault.marker},
+          {"other", textOrNull(fault.other)},
+          {"start_s", fault.start},
+          {"end_s", fault.end},
+          {"frames", fault.frames},
+          {"size_m", fault.size ? json(*fault.size) : json(nullptr)}};
+}
+
+std::string textOrEmpty(const json& value) {
+  return value.is_null() ? "" : value.get<std::string>();
+}
+
+RecordingView toRecording(const json& object) {
+  RecordingView recording;
+  for (const json& plate : object.at("plates")) {
+    recording.plates.push_back(
+        {plate.at("name"), plate.at("type"), textOrEmpty(plate.at("refusal"))});
+  }
+  recording.analog_channels = object.at("analog_channels").get<std::vector<std::string>>();
+  recording.analog_rate = object.at("analog_rate_hz");
+  for (const json& event : object.at("events")) {
+    recording.events.push_back({event.at("label"), event.at("context"), event.at("time_s")});
+  }
+  return recording;
+}
+
+MarkerFaultView toMarkerFault(const json& object) {
+  MarkerFaultView fault;
+  fault.fault = object.at("fault");
+  fault.action = object.at("action");
+  fault.marker = object.at("marker");
+  fault.other = textOrEmpty(object.at("other"));
+  fault.start = object.at("start_s");
+  fault.end = object.at("end_s");
+  fault.frames = object.at("frames");
+  if (!object.at("size_m").is_null()) {
+    fault.size = object.at("size_m").get<double>();
+  }
+  return fault;
+}
+
 json toJson(const GaitEventView& event) {
   return {{"event", event.kind}, {"foot", event.foot}, {"time_s", event.time}};
 }
@@ -125,6 +177,15 @@ json toJson(const UnderstoodFile& file) {
                      {"channels", toList(file.emg->channels)},
                      {"force_channels", file.emg->force_channels}};
   }
+  if (file.recording) {
+    object["recording"] = {{"plates", toList(file.recording->plates)},
+                           {"analog_channels", file.recording->analog_channels},
+                           {"analog_rate_hz", file.recording->analog_rate},
+                           {"events", toList(file.recording->events)}};
+  }
+  if (!file.marker_faults.empty()) {
+    object["marker_faults"] = toList(file.marker_faults);
+  }
   return object;
 }
 
@@ -148,6 +209,12 @@ void readLists(const json& object, UnderstoodFile& file) {
   }
   if (object.contains("emg")) {
     file.emg = toEmg(object.at("emg"));
+  }
+  if (object.contains("recording")) {
+    file.recording = toRecording(object.at("recording"));
+  }
+  for (const json& fault : object.value("marker_faults", json::array())) {
+    file.marker_faults.push_back(toMarkerFault(fault));
   }
 }
 

@@ -66,13 +66,47 @@ struct EmgView {
   std::vector<std::string> force_channels;  ///< of force plates in the same file, left out
 };
 
+/// A force plate that a C3D file describes.
+struct PlateView {
+  std::string name;     ///< "plate_1"
+  int type = 0;         ///< as the format numbers types
+  std::string refusal;  ///< why its forces cannot be read; empty if they are
+};
+
+/// An event that a person or a program marked in the recording.
+struct MarkedEventView {
+  std::string label;    ///< "Foot Strike"
+  std::string context;  ///< "Left"
+  double time = 0;      ///< [s]
+};
+
+/// What a C3D file holds beside its markers.
+struct RecordingView {
+  std::vector<PlateView> plates;
+  std::vector<std::string> analog_channels;  ///< that belong to no plate
+  double analog_rate = 0;                    ///< [Hz]; 0 without channels
+  std::vector<MarkedEventView> events;       ///< by time
+};
+
+/// Something wrong with a marker over some frames.
+struct MarkerFaultView {
+  std::string fault;   ///< "gap", "swap", "spike", "drift"
+  std::string action;  ///< "reported", "filled", "corrected", "removed", "weight_lowered"
+  std::string marker;
+  std::string other;  ///< the second marker of a swap, or empty
+  double start = 0;   ///< [s]
+  double end = 0;     ///< [s]
+  int frames = 0;
+  std::optional<double> size;  ///< [m] how far it is off; none for gaps
+};
+
 /// What the service read in one file. Numbers that do not apply to its kind are absent.
 struct UnderstoodFile {
   std::string part;
   std::string name;
   std::int64_t size = 0;  ///< [bytes]
   std::string sha256;     ///< hex
-  std::string format;     ///< "trc", "table", "anc", "osim"
+  std::string format;     ///< "trc", "c3d", "table", "anc", "osim"
   std::optional<int> frames;
   std::optional<double> rate;   ///< [Hz]
   std::optional<double> start;  ///< [s]
@@ -80,9 +114,11 @@ struct UnderstoodFile {
   std::string units;        ///< of lengths as the file states them: "mm", "m"; empty if it does not
   std::string labels_kind;  ///< "markers", "forces", "columns" or "muscles"
   std::vector<std::string> labels;
-  std::vector<MarkerSetMatch> marker_sets;  ///< of marker files, best match first
-  std::vector<ContactView> contacts;        ///< of ground reactions
-  std::optional<EmgView> emg;               ///< of EMG
+  std::vector<MarkerSetMatch> marker_sets;     ///< of marker files, best match first
+  std::vector<ContactView> contacts;           ///< of ground reactions
+  std::optional<EmgView> emg;                  ///< of EMG
+  std::optional<RecordingView> recording;      ///< of C3D files
+  std::vector<MarkerFaultView> marker_faults;  ///< of marker files
 };
 
 struct GaitEventView {

@@ -37,12 +37,22 @@ bool isForceChannel(const std::string& label) {
   return (axis_last || axis_second) && std::all_of(number.begin(), number.end(), isDigit);
 }
 
-void dropForceChannels(EmgFile& file) {
+/// Of a force plate, an angle, an acceleration: whatever its name, it is no EMG.
+bool isOfAnotherQuantity(const std::string& unit) {
+  return !unit.empty() && unit != "V";
+}
+
+enum class Unit { kAny, kOfEmg };
+
+void dropForceChannels(Unit wanted, EmgFile& file) {
   TimeSeries kept{file.signals.name, {}, {}, std::move(file.signals.time), {}};
   std::vector<Eigen::Index> columns;
   for (std::size_t i = 0; i < file.signals.labels.size(); ++i) {
     if (isForceChannel(file.signals.labels[i])) {
       file.force_channels.push_back(file.signals.labels[i]);
+      continue;
+    }
+    if (wanted == Unit::kOfEmg && isOfAnotherQuantity(file.signals.units[i])) {
       continue;
     }
     kept.labels.push_back(file.signals.labels[i]);
@@ -58,6 +68,15 @@ void dropForceChannels(EmgFile& file) {
 
 }  // namespace
 
+EmgFile takeEmg(C3dFile&& file) {
+  EmgFile emg;
+  emg.format = "c3d";
+  emg.signals = std::move(file.analog);
+  emg.warnings = std::move(file.warnings);
+  dropForceChannels(Unit::kOfEmg, emg);
+  return emg;
+}
+
 EmgFile readEmg(std::string_view bytes, const std::string& file_name) {
   EmgFile file;
   if (isAnc(bytes)) {
@@ -65,13 +84,15 @@ EmgFile readEmg(std::string_view bytes, const std::string& file_name) {
     file.format = "anc";
     file.signals = std::move(analog.signals);
     file.warnings = std::move(analog.warnings);
+  } else if (isC3d(bytes)) {
+    file = takeEmg(readC3d(bytes, file_name));
   } else {
     TableFile table = readTable(bytes, file_name);
     file.format = "table";
     file.signals = std::move(table.table);
     file.warnings = std::move(table.warnings);
   }
-  dropForceChannels(file);
+  dropForceChannels(Unit::kAny, file);
   require(!file.signals.labels.empty(),
           ErrorCode::kEmgChannels,
           "no column beside the time is a channel of muscles",

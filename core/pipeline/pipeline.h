@@ -18,11 +18,12 @@ struct InputFile {
 
 /// Everything a job starts from. Which files are needed depends on the first stage.
 struct TrialInput {
-  std::optional<InputFile> static_markers;    ///< TRC, standing, for scale
-  std::optional<InputFile> static_markers_2;  ///< TRC, second pose for marker placement
-  std::optional<InputFile> markers;           ///< TRC, the movement
-  std::optional<InputFile> ground_reaction;   ///< MOT/STO
-  std::optional<InputFile> emg;               ///< ANC, STO, CSV or text, raw or envelopes
+  std::optional<InputFile> static_markers;    ///< TRC or C3D, standing, for scale
+  std::optional<InputFile> static_markers_2;  ///< TRC or C3D, second pose for marker placement
+  std::optional<InputFile> markers;           ///< TRC or C3D, the movement
+  std::optional<InputFile> ground_reaction;   ///< MOT/STO or C3D; absent: plates of a C3D `markers`
+  std::optional<InputFile>
+      emg;  ///< ANC, STO, CSV, text or C3D; absent: channels of a C3D `markers`
   std::optional<InputFile> model;        ///< .osim: generic model, or scaled if scale is skipped
   std::optional<InputFile> coordinates;  ///< MOT/STO, to start after IK
   std::optional<InputFile> marker_set;   ///< JSON, replaces the one that the settings name

@@ -74,6 +74,7 @@ const std::map<std::string, std::set<std::string>>& allowedRooms() {
         "core/data",
         "core/io",
         "core/model",
+        "core/intake",
         "core/sample",
         "core/pipeline",
         "core/figure",

@@ -3,10 +3,12 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "tests/support/c3d_writer.h"
 #include "tests/support/tolerance.h"
 
 namespace gaitmill {
@@ -82,6 +84,51 @@ TEST(InspectTrial, SaysWhatAnAnalogFileHolds) {
   EXPECT_TRUE(emg.channels[1].muscles.empty());
   ASSERT_EQ(view.warnings.size(), 1U);
   EXPECT_NE(view.warnings[0].find("'EMG 7'"), std::string::npos);
+}
+
+// Markers, one plate, one channel of EMG and an event in one file.
+TEST(InspectTrial, SaysWhatAC3dFileHolds) {
+  C3dWriter writer;
+  writer.subframes = 2;
+  for (int k = 0; k < 50; ++k) {
+    writer.points.push_back({100.0 + k, 200, 900, 0, 400, 500, 600, k < 5 ? -1.0 : 0.0});
+    const std::vector<double> sample = {0, 0, -400, 0, 0, 0, 0.1};
+    writer.analog.insert(writer.analog.end(), 2, sample);
+  }
+  writer.addPointGroup({"RASI", "LASI"});
+  writer.addAnalogGroup({"Fx", "Fy", "Fz", "Mx", "My", "Mz", "SOL"},
+                        {"N", "N", "N", "Nmm", "Nmm", "Nmm", "V"});
+  writer.addPlate(2, {400, 600, 0, 0, 600, 0, 0, 0, 0, 400, 0, 0}, {0, 0, -40}, 6);
+  writer.addWords("EVENT", "USED", {}, {1});
+  writer.addTexts("EVENT", "LABELS", {"Foot Strike"});
+  writer.addTexts("EVENT", "CONTEXTS", {"Left"});
+  writer.addReals("EVENT", "TIMES", {2, 1}, {0, 0.25});
+  const api::UploadedFile upload{"walk.c3d", api::makeByteSource(writer.write())};
+  const api::TrialView view =
+      inspectTrial({{}, {{"markers", upload}, {"grf", upload}, {"emg", upload}}, ""});
+  ASSERT_EQ(view.files.size(), 3U);
+  const api::UnderstoodFile& markers = view.files[0];
+  EXPECT_EQ(markers.format, "c3d");
+  EXPECT_EQ(markers.units, "mm");
+  EXPECT_EQ(markers.frames, 50);
+  EXPECT_EQ(markers.labels, (std::vector<std::string>{"RASI", "LASI"}));
+  ASSERT_TRUE(markers.recording.has_value());
+  ASSERT_EQ(markers.recording->plates.size(), 1U);
+  EXPECT_EQ(markers.recording->plates[0].type, 2);
+  EXPECT_EQ(markers.recording->plates[0].refusal, "");
+  EXPECT_EQ(markers.recording->analog_channels, std::vector<std::string>{"SOL"});
+  EXPECT_EQ(markers.recording->analog_rate, 200);
+  ASSERT_EQ(markers.recording->events.size(), 1U);
+  EXPECT_EQ(markers.recording->events[0].context, "Left");
+  ASSERT_EQ(markers.marker_faults.size(), 1U);
+  EXPECT_EQ(markers.marker_faults[0].fault, "gap");
+  EXPECT_EQ(markers.marker_faults[0].marker, "LASI");
+  EXPECT_EQ(markers.marker_faults[0].frames, 5);
+  EXPECT_EQ(view.files[1].format, "c3d");
+  EXPECT_EQ(view.files[1].labels, std::vector<std::string>{"plate_1"});
+  EXPECT_NEAR(view.files[1].rate.value(), 200.0, tol(1e-6));
+  EXPECT_EQ(view.files[2].format, "c3d");
+  EXPECT_EQ(view.files[2].labels, std::vector<std::string>{"SOL"});
 }
 
 TEST(InspectTrial, NamesPartFileAndPlaceOfAFault) {

@@ -69,6 +69,12 @@ TEST(Understanding, SurvivesStorage) {
   markers.labels_kind = "markers";
   markers.labels = {"RASI"};
   markers.marker_sets = {{"lab_a", {"RASI"}, {"RTOE"}}};
+  markers.recording = RecordingView{{{"plate_1", 2, ""}, {"plate_2", 11, "a treadmill"}},
+                                    {"SOL"},
+                                    1000.0,
+                                    {{"Foot Strike", "Left", 0.5}}};
+  markers.marker_faults = {{"swap", "corrected", "LTOE", "RTOE", 0.5, 0.6, 11, 0.2},
+                           {"gap", "filled", "RASI", "", 0.7, 0.71, 2, std::nullopt}};
   UnderstoodFile forces;
   forces.part = "grf";
   forces.format = "table";
