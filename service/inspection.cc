@@ -15,6 +15,7 @@
 #include "core/io/osim_reader.h"
 #include "core/io/table_reader.h"
 #include "core/io/trc_reader.h"
+#include "core/pipeline/intake.h"
 #include "core/pipeline/understanding.h"
 
 namespace gaitmill {
@@ -48,18 +49,6 @@ class Inspection {
   api::TrialView view_;
   MarkerTrajectories movement_;
 };
-
-const char* footName(Foot foot) {
-  switch (foot) {
-    case Foot::kRight:
-      return "right";
-    case Foot::kLeft:
-      return "left";
-    case Foot::kUnknown:
-      break;
-  }
-  return "";
-}
 
 void putTimes(const std::vector<double>& time, UnderstoodFile& understood) {
   understood.frames = static_cast<int>(time.size());
@@ -172,6 +161,18 @@ MarkerTrajectories readMarkerFile(const OpenedFile& file,
   return std::move(c3d.markers);
 }
 
+// C3D files have the laboratory's axes.
+MarkerTrajectories readInGround(const OpenedFile& file, std::vector<std::string>& warnings) {
+  try {
+    const PipelineSettings settings;
+    Intake intake(settings);
+    return intake.readMovement({file.name, file.bytes}).markers;
+  } catch (const Error& error) {
+    warnings.push_back("the gait cannot be told: " + error.message());
+    return {};
+  }
+}
+
 void Inspection::inspectMarkers(const OpenedFile& file,
                                 UnderstoodFile& understood,
                                 Warnings& warnings) {
@@ -184,7 +185,7 @@ void Inspection::inspectMarkers(const OpenedFile& file,
   understood.labels = markers.names;
   putMarkerFaults(markers, understood);
   if (understood.part == "markers") {
-    movement_ = std::move(markers);
+    movement_ = understood.format == "c3d" ? readInGround(file, warnings) : std::move(markers);
   }
 }
 

@@ -8,7 +8,9 @@
 #include "core/data/ground_reaction.h"
 #include "core/data/marker_trajectories.h"
 #include "core/intake/laboratory.h"
+#include "core/intake/marker_faults.h"
 #include "core/intake/marker_names.h"
+#include "core/io/c3d_reader.h"
 #include "core/io/table_reader.h"
 #include "core/pipeline/pipeline.h"
 #include "core/pipeline/settings.h"
@@ -18,8 +20,11 @@ namespace gaitmill {
 /// A marker file in ground axes and metres.
 struct MarkerReading {
   MarkerTrajectories markers;
-  std::string format;  ///< "trc"
-  std::string units;   ///< that the file states
+  std::string format;   ///< "trc" or "c3d"
+  std::string units;    ///< that the file states
+  MarkerRepair repair;  ///< what was wrong with the markers
+  /// What a C3D file holds beside its markers, which are left out here; forces in its own axes.
+  std::optional<C3dFile> recording;
 };
 
 /// Forces of all plates in ground axes, N, m and N.m on the subject, on the markers' clock. Nothing
@@ -27,8 +32,14 @@ struct MarkerReading {
 struct ForceReading {
   GroundReaction plates;
   std::vector<Foot> feet;          ///< one per plate: what its name says
-  std::optional<TableFile> table;  ///< that they came in, for messages
+  std::optional<TableFile> table;  ///< that they came in, for messages; not of C3D files
 };
+
+/// The file that a trial's forces are in: the part "grf", else the movement's if that is a C3D
+/// file; null if there is none.
+const InputFile* findForceFile(const TrialInput& input);
+/// Likewise of the EMG.
+const InputFile* findEmgFile(const TrialInput& input);
 
 /// Reads the recordings of a trial and brings them into ground, SI units and one time. Uploads and
 /// jobs read by the same one, so that a job computes from what the upload's answer has said.
@@ -43,6 +54,7 @@ class Intake {
   MarkerReading readMovement(const InputFile& file);
   /// @param part  "static", for messages and decisions
   MarkerReading readStatic(const InputFile& file, const std::string& part);
+  /// A table of forces, or the plates of a C3D file.
   ForceReading readForces(const InputFile& file);
   /// A table of coordinates [rad|m]: the angles' unit is checked against the data.
   /// @param ignored  labels that are no coordinates
@@ -57,12 +69,14 @@ class Intake {
 
  private:
   MarkerReading readMarkers(const InputFile& file, const std::string& part);
+  void warnAboutFaults(const InputFile& file, const MarkerRepair& repair);
   void warnAbout(const InputFile& file, const std::vector<std::string>& sentences);
 
   const PipelineSettings& settings_;
   std::optional<LaboratoryFrame> frame_;  ///< of the movement
   MarkerTrajectories movement_;
-  BodyMarkers body_;  ///< of the movement
+  const char* movement_bytes_ = nullptr;  ///< tells the movement's file from another
+  BodyMarkers body_;                      ///< of the movement
   Decisions decisions_;
   std::vector<std::string> warnings_;
 };

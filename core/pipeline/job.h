@@ -27,6 +27,7 @@
 #include "core/data/time_series.h"
 #include "core/id/id_result.h"
 #include "core/ik/ik_result.h"
+#include "core/intake/marker_faults.h"
 #include "core/math/events.h"
 #include "core/pipeline/pipeline.h"
 #include "core/pipeline/settings.h"
@@ -83,7 +84,8 @@ struct Job {
 
   std::array<double, kStageCount> seconds{};  ///< processor time of each stage, 0 = not run
   std::vector<std::string> warnings;
-  Decisions decisions;  ///< on the input files
+  Decisions decisions;         ///< on the input files
+  MarkerRepair marker_repair;  ///< of the movement
 
   bool ran(Stage stage) const { return seconds[static_cast<std::size_t>(stage)] > 0; }
   void warn(const std::string& sentence);

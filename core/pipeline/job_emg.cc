@@ -12,6 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/emg_reader.h"
+#include "core/pipeline/intake.h"
 #include "core/pipeline/quality_json.h"
 
 namespace gaitmill {
@@ -163,6 +164,21 @@ Json summarizeComparison(const EmgComparison& comparison) {
           {"correlation_without_lag", toJsonNumber(comparison.correlation_at_zero)}};
 }
 
+/// The movement's file may hold analog channels, or channels of no muscle: that is no fault then,
+/// and its warnings were said with the markers.
+std::optional<EmgFile> openRecording(const Job& job, const InputFile& file) {
+  if (job.input->emg) {
+    return readEmg(file.bytes, file.name);
+  }
+  EmgFile recording = takeEmg(readC3d(file.bytes, file.name));
+  recording.warnings.clear();
+  const EmgChannels mapped = mapEmgChannels(recording.signals.labels, {}, job.settings.emg.mapping);
+  const bool any = std::any_of(mapped.channels.begin(),
+                               mapped.channels.end(),
+                               [](const EmgChannel& channel) { return !channel.muscles.empty(); });
+  return any ? std::optional<EmgFile>(std::move(recording)) : std::nullopt;
+}
+
 }  // namespace
 
 std::vector<EmgComparison> compareEmgs(const Job& job) {
@@ -182,11 +198,16 @@ std::vector<EmgComparison> compareEmgs(const Job& job) {
 }
 
 void openEmg(Job& job) {
-  if (!job.input->emg || job.settings.last < Stage::kIk) {
+  const InputFile* const found = findEmgFile(*job.input);
+  if (found == nullptr || job.settings.last < Stage::kIk) {
     return;
   }
-  const InputFile& file = *job.input->emg;
-  EmgFile recording = readEmg(file.bytes, file.name);
+  const InputFile& file = *found;
+  std::optional<EmgFile> opened = openRecording(job, file);
+  if (!opened) {
+    return;
+  }
+  EmgFile& recording = *opened;
   for (const std::string& warning : recording.warnings) {
     job.warn(file.name + ": " + warning);
   }

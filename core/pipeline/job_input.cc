@@ -77,7 +77,7 @@ void filterForces(double cutoff, double threshold, GroundReaction& reaction) {
 }
 
 void openForces(Intake& intake, Job& job) {
-  ForceReading reading = intake.readForces(*job.input->ground_reaction);
+  ForceReading reading = intake.readForces(*findForceFile(*job.input));
   job.reaction = selectForces(std::move(reading.plates),
                               reading.feet,
                               job.settings.forces.reading,
@@ -119,7 +119,9 @@ void openModels(Job& job) {
 void openMotion(Intake& intake, Job& job) {
   const bool measured = job.settings.runs(Stage::kIk);
   if (measured || scalesByMotion(*job.input, job.settings)) {
-    job.markers = intake.readMovement(*job.input->markers).markers;
+    MarkerReading reading = intake.readMovement(*job.input->markers);
+    job.markers = std::move(reading.markers);
+    job.marker_repair = std::move(reading.repair);
   }
   if (measured || job.settings.last <= Stage::kIk) {
     return;
@@ -177,7 +179,11 @@ void checkParts(const TrialInput& input, const PipelineSettings& settings) {
         input.coordinates, "coordinates", "they are needed where inverse kinematics is not run");
   }
   if (needsForces(settings)) {
-    needFile(input.ground_reaction, "grf", "the dynamics stages need the ground reactions");
+    require(findForceFile(input) != nullptr,
+            ErrorCode::kInputMissing,
+            "a file is missing: grf, the dynamics stages need the ground reactions; without forces "
+            "the stages scale and ik can be run",
+            {{}, 0, 0, "grf"});
   }
 }
 

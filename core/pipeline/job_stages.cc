@@ -72,9 +72,20 @@ void runScale(Job& job) {
   takeWarnings("scale", job.scale->warnings, job);
 }
 
+// Markers that drift, or whose names are in doubt, pull less.
+void weighFaults(const Job& job, FitTasks& tasks) {
+  for (MarkerWeight& task : tasks.markers) {
+    const std::optional<int> marker = job.markers.findMarker(task.marker);
+    if (marker && !job.marker_repair.weights.empty()) {
+      task.weight *= job.marker_repair.weights[static_cast<std::size_t>(*marker)];
+    }
+  }
+}
+
 void runIk(Job& job) {
   IkOptions options;
   options.tasks = openMarkerSet(*job.input, job.settings, job.models_folder).ik;
+  weighFaults(job, options.tasks);
   options.range = job.settings.ik_range;
   options.warn_rms = job.settings.ik_warn_rms;
   options.warn_max = job.settings.ik_warn_max;

@@ -142,6 +142,21 @@ Json summarizeDecisions(const Decisions& decisions) {
   return list;
 }
 
+Json summarizeFaults(const MarkerRepair& repair) {
+  Json list = Json::array();
+  for (const MarkerFault& fault : repair.faults) {
+    list.push_back({{"fault", faultName(fault.kind)},
+                    {"action", actionName(fault.action)},
+                    {"marker", fault.marker},
+                    {"other", fault.other.empty() ? Json(nullptr) : Json(fault.other)},
+                    {"start_s", toJsonNumber(fault.start)},
+                    {"end_s", toJsonNumber(fault.end)},
+                    {"frames", fault.last_frame - fault.first_frame + 1},
+                    {"size_m", toJsonNumber(fault.size)}});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string makeSummary(const Job& job, const JobQuality& quality) {
@@ -171,6 +186,7 @@ std::string makeSummary(const Job& job, const JobQuality& quality) {
     summary["emg"] = summarizeEmg(job);
   }
   summary["decisions"] = summarizeDecisions(job.decisions);
+  summary["marker_faults"] = summarizeFaults(job.marker_repair);
   summary["settings_used"] = Json::parse(writeSettings(job.settings));
   summary["warnings"] = job.warnings;
   return summary.dump(2) + "\n";

@@ -56,6 +56,7 @@ void visitLaboratory(Fields& fields, PipelineSettings& settings) {
   fields.choice("force_direction", kDirections, settings.force_reading.on_subject);
   fields.number("force_time_offset_s", {-10, 10}, settings.force_time_offset);
   fields.choice("angle_units", kAngles, settings.angles_in_degrees);
+  fields.number("max_gap_s", {0, 10}, settings.marker_faults.max_gap);
 }
 
 template <class Fields>

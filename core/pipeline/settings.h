@@ -16,6 +16,7 @@
 #include "core/ik/ik_options.h"
 #include "core/intake/force_reading.h"
 #include "core/intake/laboratory.h"
+#include "core/intake/marker_faults.h"
 #include "core/io/grf_reader.h"
 #include "core/io/trc_reader.h"
 #include "core/pipeline/pipeline.h"
@@ -121,6 +122,7 @@ struct PipelineSettings {
   ForceReadingOptions force_reading;
   std::optional<double> force_time_offset;  ///< [s] added to the times of the forces
   std::optional<bool> angles_in_degrees;    ///< of a coordinates file
+  MarkerFaultOptions marker_faults;
   std::optional<TimeRange> gait_cycle;  ///< two strikes of the right foot; absent = from the forces
 
   /// Set where the job is one of the paper's two trials: the result then holds the acceptance list.
