@@ -184,6 +184,9 @@ void addRunFiles(CLI::App& command, RunOptions& options) {
   add("--emg", options.emg, "EMG, MOT, STO, CSV, ANC or C3D; for comparison only");
   add("--model", options.model, "Model document; scaled, if scaling is left out");
   add("--coordinates", options.coordinates, "Kinematics, MOT or STO; to start after IK");
+  add("--marker-names",
+      options.marker_names,
+      "Landmarks by measured marker, JSON; null = a marker to ignore");
 }
 
 void addRun(CLI::App& app, RunOptions& options) {

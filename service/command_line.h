@@ -20,6 +20,7 @@ struct RunOptions {
   std::string from;                  ///< first stage; empty = the settings' own
   std::string static_markers;        ///< files; empty = not given
   std::string static_markers_2;
+  std::string marker_names;
   std::string markers;
   std::string ground_reaction;
   std::string emg;

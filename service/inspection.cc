@@ -1,5 +1,6 @@
 #include "service/inspection.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/intake/marker_faults.h"
+#include "core/intake/marker_names.h"
 #include "core/io/c3d_reader.h"
 #include "core/io/emg_reader.h"
 #include "core/io/files.h"
@@ -16,6 +18,7 @@
 #include "core/io/table_reader.h"
 #include "core/io/trc_reader.h"
 #include "core/pipeline/intake.h"
+#include "core/pipeline/marker_names_json.h"
 #include "core/pipeline/understanding.h"
 
 namespace gaitmill {
@@ -36,7 +39,7 @@ struct OpenedFile {
 class Inspection {
  public:
   void read(const std::string& part, const UploadedFile& file);
-  api::TrialView take() { return std::move(view_); }
+  api::TrialView take();
 
  private:
   using Warnings = std::vector<std::string>;
@@ -46,8 +49,12 @@ class Inspection {
   void inspectForces(const OpenedFile& file, UnderstoodFile& understood, Warnings& warnings);
   void understand(const TableFile& table, UnderstoodFile& understood, Warnings& warnings);
 
+  void nameMarkers();
+
   api::TrialView view_;
   MarkerTrajectories movement_;
+  std::vector<std::string> marker_names_;  // of static poses and movement, each once
+  MarkerOverrides stated_names_;
 };
 
 void putTimes(const std::vector<double>& time, UnderstoodFile& understood) {
@@ -124,6 +131,25 @@ api::RecordingView makeRecording(const C3dFile& file) {
   return view;
 }
 
+api::MarkerNamesView makeMarkerNames(const MarkerMapping& mapping) {
+  api::MarkerNamesView view;
+  view.set = mapping.set;
+  view.set_share = mapping.set_share;
+  for (const MarkerName& name : mapping.names) {
+    view.markers.push_back({name.measured,
+                            name.landmark,
+                            name.confidence,
+                            name.reason,
+                            name.set,
+                            name.proposal,
+                            name.proposal_confidence});
+  }
+  for (MissingLandmarks& group : listMissingLandmarks(mapping)) {
+    view.missing.push_back({std::move(group.part), group.needed, group.found, group.any_of});
+  }
+  return view;
+}
+
 void putMarkerFaults(MarkerTrajectories& markers, UnderstoodFile& understood) {
   constexpr std::size_t kMostFaults = 200;
   const MarkerRepair repair = repairMarkers({}, markers);
@@ -184,6 +210,11 @@ void Inspection::inspectMarkers(const OpenedFile& file,
   understood.labels_kind = "markers";
   understood.labels = markers.names;
   putMarkerFaults(markers, understood);
+  for (const std::string& name : understood.labels) {
+    if (std::find(marker_names_.begin(), marker_names_.end(), name) == marker_names_.end()) {
+      marker_names_.push_back(name);
+    }
+  }
   if (understood.part == "markers") {
     movement_ = understood.format == "c3d" ? readInGround(file, warnings) : std::move(markers);
   }
@@ -250,6 +281,9 @@ void Inspection::inspect(const OpenedFile& file, UnderstoodFile& understood, War
     inspectForces(file, understood, warnings);
   } else if (understood.part == "emg") {
     inspectEmg(file, understood, warnings);
+  } else if (understood.part == "marker_names") {
+    understood.format = "json";
+    stated_names_ = readMarkerNames({file.name, file.bytes});
   } else if (understood.part == "coordinates") {
     warnings = inspectTable(file, understood).warnings;
   } else {
@@ -272,6 +306,27 @@ void Inspection::read(const std::string& part, const UploadedFile& file) {
   for (const std::string& warning : warnings) {
     view_.warnings.push_back(file.name + ": " + warning);
   }
+}
+
+// A statement about a marker that is not there is refused by the job; an upload may come in pieces.
+void Inspection::nameMarkers() {
+  if (marker_names_.empty()) {
+    return;
+  }
+  MarkerMapping mapping;
+  try {
+    mapping = mapMarkerNames(marker_names_, stated_names_);
+  } catch (const Error& error) {
+    view_.warnings.push_back(error.where().field + ": " + error.message());
+    mapping = mapMarkerNames(marker_names_);
+  }
+  view_.marker_names = makeMarkerNames(mapping);
+  view_.warnings.insert(view_.warnings.end(), mapping.warnings.begin(), mapping.warnings.end());
+}
+
+api::TrialView Inspection::take() {
+  nameMarkers();
+  return std::move(view_);
 }
 
 }  // namespace

@@ -80,6 +80,7 @@ TrialInput makeTrialInput(const JobInput& input) {
   trial.model = take("model");
   trial.coordinates = take("coordinates");
   trial.marker_set = take("marker_set");
+  trial.marker_names = take("marker_names");
   trial.mass = input.mass;
   trial.height = input.height;
   return trial;

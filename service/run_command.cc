@@ -34,6 +34,7 @@ TrialInput readTrial(const RunOptions& options) {
   TrialInput input;
   input.static_markers = readOptional(options.static_markers);
   input.static_markers_2 = readOptional(options.static_markers_2);
+  input.marker_names = readOptional(options.marker_names);
   input.markers = readOptional(options.markers);
   input.ground_reaction = readOptional(options.ground_reaction);
   input.emg = readOptional(options.emg);
@@ -112,6 +113,7 @@ ReportProvenance describeRun(const TrialInput& trial,
   add("emg", trial.emg);
   add("model", trial.model);
   add("coordinates", trial.coordinates);
+  add("marker_names", trial.marker_names);
   return provenance;
 }
 

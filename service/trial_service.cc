@@ -46,6 +46,7 @@ void requirePart(const std::string& part) {
 // Takes over what has just been understood of the other files too, as far as they are still those
 // that were read.
 void takeOver(const api::TrialView& understood, const std::string& part, api::TrialView& stored) {
+  stored.marker_names = understood.marker_names;
   stored.events = understood.events;
   stored.warnings = understood.warnings;
   for (api::UnderstoodFile& file : stored.files) {

@@ -236,11 +236,15 @@ UnderstoodFile toFile(const json& object) {
   return file;
 }
 
+json markerNamesOrNull(const TrialView& trial) {
+  return trial.marker_names ? toJson(*trial.marker_names) : json(nullptr);
+}
+
 }  // namespace
 
 const std::vector<std::string>& trialParts() {
   static const std::vector<std::string> parts = {
-      "markers", "grf", "static", "static2", "emg", "model", "coordinates"};
+      "markers", "grf", "static", "static2", "emg", "model", "coordinates", "marker_names"};
   return parts;
 }
 
@@ -275,6 +279,7 @@ std::string renderTrial(const TrialView& trial) {
               {"marker_set", nullptr},
               {"options", json::parse(trial.subject.options)},
               {"files", toList(trial.files)},
+              {"marker_names", markerNamesOrNull(trial)},
               {"events", toList(trial.events)},
               {"warnings", trial.warnings}};
   if (is_stored) {
@@ -288,6 +293,7 @@ std::string renderTrial(const TrialView& trial) {
 
 std::string encodeUnderstanding(const TrialView& trial) {
   return dumpJson({{"files", toList(trial.files)},
+                   {"marker_names", markerNamesOrNull(trial)},
                    {"events", toList(trial.events)},
                    {"warnings", trial.warnings}});
 }
@@ -298,6 +304,12 @@ void decodeUnderstanding(const std::string& text, TrialView& trial) {
     trial.files.clear();
     for (const json& file : object.at("files")) {
       trial.files.push_back(toFile(file));
+    }
+    // Trials from before this was told have none.
+    trial.marker_names.reset();
+    const json names = object.value("marker_names", json(nullptr));
+    if (!names.is_null()) {
+      trial.marker_names = toMarkerNames(names);
     }
     trial.events.clear();
     for (const json& event : object.at("events")) {

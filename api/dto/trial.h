@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "api/dto/marker_names.h"
 #include "api/http.h"
 
 namespace gaitmill::api {
@@ -27,7 +28,7 @@ struct TrialSubject {
 };
 
 /// The file parts a trial may have, in the order they are shown:
-/// markers, grf, static, static2, emg, model, coordinates.
+/// markers, grf, static, static2, emg, model, coordinates, marker_names.
 const std::vector<std::string>& trialParts();
 
 struct TrialUpload {
@@ -106,7 +107,7 @@ struct UnderstoodFile {
   std::string name;
   std::int64_t size = 0;  ///< [bytes]
   std::string sha256;     ///< hex
-  std::string format;     ///< "trc", "c3d", "table", "anc", "osim"
+  std::string format;     ///< "trc", "c3d", "table", "anc", "osim", "json"
   std::optional<int> frames;
   std::optional<double> rate;   ///< [Hz]
   std::optional<double> start;  ///< [s]
@@ -132,7 +133,8 @@ struct TrialView {
   std::int64_t created_at = 0;  ///< [ms since 1970 UTC]
   TrialSubject subject;
   std::vector<UnderstoodFile> files;
-  std::vector<GaitEventView> events;  ///< by time
+  std::optional<MarkerNamesView> marker_names;  ///< absent without marker files
+  std::vector<GaitEventView> events;            ///< by time
   std::vector<std::string> warnings;
 };
 
@@ -143,8 +145,8 @@ TrialSubject parseTrialSubject(const std::string& json);
 
 std::string renderTrial(const TrialView& trial);
 
-/// What was understood (files, events, warnings) as JSON and back: how a trial's reading is kept in
-/// storage, and how it comes back from the process that reads hostile bytes.
+/// What was understood (files, marker names, events, warnings) as JSON and back: how a trial's
+/// reading is kept in storage, and how it comes back from the process that reads hostile bytes.
 std::string encodeUnderstanding(const TrialView& trial);
 /// @throws Error kStorage if the text is no such JSON
 void decodeUnderstanding(const std::string& json, TrialView& trial);

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <map>
 
+#include "core/base/error.h"
+
 namespace gaitmill {
 
 namespace {
@@ -266,6 +268,21 @@ const Landmark* findLandmark(const std::string& name) {
   }();
   const auto found = by_name.find(name);
   return found == by_name.end() ? nullptr : found->second;
+}
+
+void requireLandmark(const std::string& name, const Where& where) {
+  if (findLandmark(name) != nullptr) {
+    return;
+  }
+  std::vector<std::string> names;
+  for (const Landmark& mark : landmarks()) {
+    names.push_back(mark.name);
+  }
+  const std::string nearest = findNearestName(name, names);
+  throw Error(ErrorCode::kMarkerNames,
+              "there is no landmark '" + name + "'" +
+                  (nearest.empty() ? "" : ", did you mean '" + nearest + "'?"),
+              where);
 }
 
 const Landmark* findOpposite(const std::string& name) {

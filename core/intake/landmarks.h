@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "core/base/where.h"
 #include "core/data/model_spec.h"
 
 namespace gaitmill {
@@ -50,6 +51,9 @@ const std::vector<Landmark>& landmarks();
 
 /// @returns nullptr if there is none of that name (case counts)
 const Landmark* findLandmark(const std::string& name);
+
+/// @throws Error kMarkerNames with the nearest name unless there is a landmark of that name
+void requireLandmark(const std::string& name, const Where& where);
 
 /// The landmark of the other side; of the middle, itself. @returns nullptr for an unknown name
 const Landmark* findOpposite(const std::string& name);

@@ -177,14 +177,6 @@ MarkerName mapByName(const std::string& measured, const std::vector<SetFit>& fit
               {{}, 0, 0, "marker_names." + measured});
 }
 
-std::vector<std::string> listLandmarkNames() {
-  std::vector<std::string> names;
-  for (const Landmark& landmark : landmarks()) {
-    names.push_back(landmark.name);
-  }
-  return names;
-}
-
 void checkOverrides(const std::vector<std::string>& measured, const MarkerOverrides& overrides) {
   const std::set<std::string> there(measured.begin(), measured.end());
   std::map<std::string, std::string> taken;
@@ -196,11 +188,7 @@ void checkOverrides(const std::vector<std::string>& measured, const MarkerOverri
     if (!landmark) {
       continue;
     }
-    if (findLandmark(*landmark) == nullptr) {
-      refuseOverride(name,
-                     "there is no landmark '" + *landmark + "'",
-                     findNearestName(*landmark, listLandmarkNames()));
-    }
+    requireLandmark(*landmark, {{}, 0, 0, "marker_names." + name});
     const auto [other, is_new] = taken.emplace(*landmark, name);
     if (!is_new) {
       refuseOverride(

@@ -106,7 +106,8 @@ std::uint64_t calcFingerprint(const TrialInput& input, const InputFile& settings
                                                &input.emg,
                                                &input.model,
                                                &input.coordinates,
-                                               &input.marker_set}) {
+                                               &input.marker_set,
+                                               &input.marker_names}) {
     add(file->has_value() ? (*file)->name : std::string());
     add(file->has_value() ? (*file)->bytes : std::string());
   }

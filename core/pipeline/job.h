@@ -22,12 +22,14 @@
 #include "core/cmc/cmc_result.h"
 #include "core/data/decision.h"
 #include "core/data/ground_reaction.h"
+#include "core/data/marker_set.h"
 #include "core/data/marker_trajectories.h"
 #include "core/data/model_spec.h"
 #include "core/data/time_series.h"
 #include "core/id/id_result.h"
 #include "core/ik/ik_result.h"
 #include "core/intake/marker_faults.h"
+#include "core/intake/marker_names.h"
 #include "core/math/events.h"
 #include "core/pipeline/pipeline.h"
 #include "core/pipeline/settings.h"
@@ -67,6 +69,9 @@ struct Job {
   ModelSpec generic;   ///< unscaled, the strength law's reference
   ModelSpec scaled;    ///< of the subject; what residual reduction starts from
   ModelSpec adjusted;  ///< after residual reduction and strength; what ID, SO and CMC use
+  /// Which landmark each marker of the static trials and the movement is.
+  MarkerMapping marker_names;
+  MarkerSetSpec marker_set;  ///< what scaling and inverse kinematics work with
   std::vector<MarkerTrajectories> static_poses;
   MarkerTrajectories markers;
   GroundReaction reaction;
@@ -97,6 +102,11 @@ bool scalesByMotion(const TrialInput& input, const PipelineSettings& settings);
 /// Checks that the stages have the parts and numbers of the subject that they need. Looks at no
 /// byte of a file. @throws Error kInputMissing, kInputValue naming the part
 void checkParts(const TrialInput& input, const PipelineSettings& settings);
+
+/// Tells which landmark each marker is, and takes the marker set of the job from that or from where
+/// the settings say. Jobs that neither scale nor solve inverse kinematics have neither.
+/// @throws Error kMarkerNames, and what openMarkerSet throws
+void resolveMarkers(Job& job);
 
 /// The marker set that came with the input, else the one that the settings name.
 /// @throws Error kMarkerSetNotFound, kSettingsValue, and what readMarkerSet throws

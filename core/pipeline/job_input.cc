@@ -12,7 +12,6 @@
 #include "core/pipeline/intake.h"
 #include "core/pipeline/job.h"
 #include "core/pipeline/job_emg.h"
-#include "core/pipeline/marker_set_json.h"
 #include "core/pipeline/model_coordinates.h"
 
 namespace gaitmill {
@@ -187,30 +186,6 @@ void checkParts(const TrialInput& input, const PipelineSettings& settings) {
   }
 }
 
-MarkerSetSpec openMarkerSet(const TrialInput& input,
-                            const PipelineSettings& settings,
-                            const std::string& models_folder) {
-  if (input.marker_set) {
-    return readMarkerSet(*input.marker_set);
-  }
-  const std::string& name = settings.marker_set;
-  // The name is a word, never a path.
-  require(!name.empty() && name.find_first_of("/\\.") == std::string::npos,
-          ErrorCode::kSettingsValue,
-          "'" + name + "' is not the name of a marker set",
-          {{}, 0, 0, "scale.marker_set"});
-  try {
-    return readMarkerSet(
-        {name + ".json", readFile(models_folder + "/marker_sets/" + name + ".json")});
-  } catch (const Error& error) {
-    require(error.code() != ErrorCode::kFileNotFound,
-            ErrorCode::kMarkerSetNotFound,
-            "there is no marker set '" + name + "'",
-            {{}, 0, 0, "scale.marker_set"});
-    throw;
-  }
-}
-
 Job openJob(const TrialInput& input,
             const InputFile& settings,
             const std::string& models_folder,
@@ -231,6 +206,7 @@ Job openJob(const TrialInput& input,
   if (job.settings.runs(Stage::kScale) && !scalesByMotion(input, job.settings)) {
     openStaticPoses(intake, job);
   }
+  resolveMarkers(job);
   if (needsForces(job.settings)) {
     openForces(intake, job);
   }

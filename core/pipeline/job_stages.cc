@@ -56,7 +56,7 @@ void takeWarnings(const char* stage, const std::vector<std::string>& warnings, J
 
 void runScale(Job& job) {
   ScaleOptions options;
-  options.marker_set = openMarkerSet(*job.input, job.settings, job.models_folder);
+  options.marker_set = job.marker_set;
   options.subject_mass = job.input->mass;
   options.fiber_damping = job.settings.fiber_damping;
   if (scalesByMotion(*job.input, job.settings)) {
@@ -84,7 +84,7 @@ void weighFaults(const Job& job, FitTasks& tasks) {
 
 void runIk(Job& job) {
   IkOptions options;
-  options.tasks = openMarkerSet(*job.input, job.settings, job.models_folder).ik;
+  options.tasks = job.marker_set.ik;
   weighFaults(job, options.tasks);
   options.range = job.settings.ik_range;
   options.warn_rms = job.settings.ik_warn_rms;

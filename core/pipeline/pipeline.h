@@ -24,11 +24,12 @@ struct TrialInput {
   std::optional<InputFile> ground_reaction;   ///< MOT/STO or C3D; absent: plates of a C3D `markers`
   std::optional<InputFile>
       emg;  ///< ANC, STO, CSV, text or C3D; absent: channels of a C3D `markers`
-  std::optional<InputFile> model;        ///< .osim: generic model, or scaled if scale is skipped
-  std::optional<InputFile> coordinates;  ///< MOT/STO, to start after IK
-  std::optional<InputFile> marker_set;   ///< JSON, replaces the one that the settings name
-  double mass = 0;                       ///< [kg]
-  double height = 0;                     ///< [m]
+  std::optional<InputFile> model;         ///< .osim: generic model, or scaled if scale is skipped
+  std::optional<InputFile> coordinates;   ///< MOT/STO, to start after IK
+  std::optional<InputFile> marker_set;    ///< JSON, replaces the one that the settings name
+  std::optional<InputFile> marker_names;  ///< JSON, {"measured name": "landmark" | null}
+  double mass = 0;                        ///< [kg]
+  double height = 0;                      ///< [m]
 };
 
 enum class Stage { kScale, kIk, kRra, kId, kSo, kCmc };

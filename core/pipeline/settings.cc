@@ -74,6 +74,7 @@ void visitTrial(Fields& fields, PipelineSettings& settings) {
   fields.choice("marker_prefixes",
                 Choices<Prefixes>{{"keep", Prefixes::kKeep}, {"strip", Prefixes::kStrip}},
                 settings.trc.prefixes);
+  fields.landmarks("marker_names", settings.marker_names);
   fields.number("force_threshold_n", {0, 500}, reading.threshold);
   fields.number("force_lowpass_cutoff_hz", kCutoff, settings.forces.lowpass_cutoff);
   fields.text("right_foot_body", reading.right_body);

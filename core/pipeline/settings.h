@@ -17,6 +17,7 @@
 #include "core/intake/force_reading.h"
 #include "core/intake/laboratory.h"
 #include "core/intake/marker_faults.h"
+#include "core/intake/marker_names.h"
 #include "core/io/grf_reader.h"
 #include "core/io/trc_reader.h"
 #include "core/pipeline/pipeline.h"
@@ -116,6 +117,7 @@ struct PipelineSettings {
   std::vector<Stage> skipped;
 
   TrcOptions trc;
+  MarkerOverrides marker_names;  ///< over those of the trial's own part and over what names tell
   ForceSettings forces;
   // What is stated here is not read out of the data.
   LaboratoryOptions laboratory;

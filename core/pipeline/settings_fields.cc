@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/pipeline/marker_names_json.h"
 
 namespace gaitmill {
 
@@ -182,6 +183,12 @@ void SettingsReader::lists(const std::string& name,
   }
 }
 
+void SettingsReader::landmarks(const std::string& name, MarkerOverrides& value) {
+  if (fields_.has(name)) {
+    value = readMarkerOverrides(fields_.object(name));
+  }
+}
+
 void SettingsWriter::point(const std::string& name, const std::optional<Eigen::Vector3d>& value) {
   json_[name] = value ? Json{value->x(), value->y(), value->z()} : Json(nullptr);
 }
@@ -221,6 +228,13 @@ void SettingsWriter::stages(const std::string& name, const std::vector<Stage>& v
   json_[name] = Json::array();
   for (const Stage stage : value) {
     json_[name].push_back(stageName(stage));
+  }
+}
+
+void SettingsWriter::landmarks(const std::string& name, const MarkerOverrides& value) {
+  json_[name] = Json::object();
+  for (const auto& [measured, landmark] : value) {
+    json_[name][measured] = landmark ? Json(*landmark) : Json(nullptr);
   }
 }
 

@@ -61,6 +61,8 @@ class SettingsReader {
   void band(const std::string& name, Limits limits, std::optional<FrequencyBand>& value);
   /// Lists of words by name.
   void lists(const std::string& name, std::map<std::string, std::vector<std::string>>& value);
+  /// Landmarks by measured marker. @throws also Error kMarkerNames
+  void landmarks(const std::string& name, MarkerOverrides& value);
 
   template <class Enum>
   void choice(const std::string& name, const Choices<Enum>& choices, Enum& value) {
@@ -155,6 +157,7 @@ class SettingsWriter {
   void stages(const std::string& name, const std::vector<Stage>& value);
   void band(const std::string& name, Limits, const std::optional<FrequencyBand>& value);
   void lists(const std::string& name, const std::map<std::string, std::vector<std::string>>& value);
+  void landmarks(const std::string& name, const MarkerOverrides& value);
 
   template <class Enum>
   void choice(const std::string& name, const Choices<Enum>& choices, const Enum& value) {

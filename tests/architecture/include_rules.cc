@@ -72,6 +72,7 @@ const std::map<std::string, std::set<std::string>>& allowedRooms() {
         "service/observe",
         "core/base",
         "core/data",
+        "core/intake",
         "core/io",
         "core/model",
         "core/intake",
