@@ -230,40 +230,31 @@ void settleDuplicates(MarkerMapping& mapping) {
   }
 }
 
-/// A group of landmarks; "@" stands for the side, and such a group is needed on both.
+/// A part of the body and the landmarks that say where it is; "@" stands for the side, and such a
+/// part is needed on both. Clusters do where the places that scaling prefers are not marked, as in
+/// movements whose static trial has them.
 struct Need {
   const char* part;
   int count;
   std::vector<const char*> any_of;
+  std::vector<const char*> cluster = {};  // two of these do as well
 };
+
+constexpr int kEnoughOfCluster = 2;
 
 // What has to be there for every segment of the legs and the trunk to have a place: three points of
 // the pelvis, one at each joint below it, two of each foot, two of the trunk. Arms may be missing.
+// clang-format off
 const std::vector<Need>& needs() {
   static const std::vector<Need> all = {
       {"pelvis", 3, {"RASI", "LASI", "RPSI", "LPSI", "SACR", "S2", "RILC", "LILC", "RHJC", "LHJC"}},
-      {"@ knee", 1, {"@LFC", "@MFC", "@FCmid", "@KJC"}},
-      {"@ ankle", 1, {"@LMAL", "@MMAL", "@MALmid", "@AJC"}},
-      {"@ foot",
-       2,
-       {"@CAL", "@TOE", "@MT1", "@MT2", "@MT5", "@TIP", "@HLX", "@TO5", "@DFT", "@B5M"}},
-      {"trunk",
-       2,
-       {"C7",
-        "CLAV",
-        "STRN",
-        "XIPH",
-        "T10",
-        "T8",
-        "RACR",
-        "LACR",
-        "RCLV",
-        "LCLV",
-        "RSJC",
-        "LSJC",
-        "SJCmid"}}};
+      {"@ knee", 1, {"@LFC", "@MFC", "@FCmid", "@KJC"}, {"@TH1", "@TH2", "@TH3", "@TH4", "@THI", "@THAP", "@THAD"}},
+      {"@ ankle", 1, {"@LMAL", "@MMAL", "@MALmid", "@AJC"}, {"@TB1", "@TB2", "@TB3", "@TB4", "@TIB", "@TIAP", "@TIAD"}},
+      {"@ foot", 2, {"@CAL", "@TOE", "@MT1", "@MT2", "@MT5", "@TIP", "@HLX", "@TO5", "@DFT", "@B5M"}},
+      {"trunk", 2, {"C7", "CLAV", "STRN", "XIPH", "T10", "T8", "RACR", "LACR", "RCLV", "LCLV", "RSJC", "LSJC", "SJCmid"}}};
   return all;
 }
+// clang-format on
 
 std::string putSide(std::string text, bool right, const char* word) {
   const std::size_t at = text.find('@');
@@ -284,7 +275,11 @@ void addMissing(const Need& need,
     group.any_of.push_back(putSide(landmark, right, nullptr));
     group.found += mapping.findMeasured(group.any_of.back()) != nullptr ? 1 : 0;
   }
-  if (group.found < group.needed) {
+  int of_cluster = 0;
+  for (const char* landmark : need.cluster) {
+    of_cluster += mapping.findMeasured(putSide(landmark, right, nullptr)) != nullptr ? 1 : 0;
+  }
+  if (group.found < group.needed && of_cluster < kEnoughOfCluster) {
     missing.push_back(std::move(group));
   }
 }
