@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/pipeline/settings.h"
 #include "core/pipeline/understanding.h"
 #include "service/job_input.h"
 
@@ -53,6 +54,10 @@ std::vector<MarkerSetSpec> KnownMarkerSets::list(const std::string& tenant) cons
 void KnownMarkerSets::require(const std::string& tenant, const std::string& id) const {
   if (isUploadedId(id)) {
     uploaded_.find(tenant, id);
+    return;
+  }
+  // The one that follows from the names of the markers.
+  if (id == kAutomaticMarkerSet) {
     return;
   }
   const bool ships = std::any_of(

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
+#include <utility>
 
 #include <Eigen/Dense>
 

@@ -153,7 +153,7 @@ double calcCost(const Cloud& cloud,
       ++near;
     }
   }
-  way = near == 0 ? Vector3d::Zero() : Vector3d(sum / near);
+  way = sum / std::max(1, near);
   return cost;
 }
 

@@ -75,9 +75,8 @@ double calcWorst(const std::vector<const MarkerTrajectories*>& recordings,
 }
 
 bool isCandidate(const MarkerName& name) {
-  return name.landmark.empty() && name.set.empty() && !name.measured.empty() &&
-         name.measured[0] != '*' && name.reason.rfind("to be ignored", 0) != 0 &&
-         name.reason.rfind("a result", 0) != 0;
+  return name.landmark.empty() && !name.measured.empty() && name.measured[0] != '*' &&
+         name.reason.rfind("to be ignored", 0) != 0 && name.reason.rfind("a result", 0) != 0;
 }
 
 /// Where the markers of a body are on average, as a place to start from.

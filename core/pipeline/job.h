@@ -108,6 +108,9 @@ void checkParts(const TrialInput& input, const PipelineSettings& settings);
 /// @throws Error kMarkerNames, and what openMarkerSet throws
 void resolveMarkers(Job& job);
 
+/// Whether the marker set follows from the markers' names.
+bool isAutomatic(const TrialInput& input, const PipelineSettings& settings);
+
 /// The marker set that came with the input, else the one that the settings name.
 /// @throws Error kMarkerSetNotFound, kSettingsValue, and what readMarkerSet throws
 MarkerSetSpec openMarkerSet(const TrialInput& input,

@@ -206,7 +206,6 @@ Job openJob(const TrialInput& input,
   if (job.settings.runs(Stage::kScale) && !scalesByMotion(input, job.settings)) {
     openStaticPoses(intake, job);
   }
-  resolveMarkers(job);
   if (needsForces(job.settings)) {
     openForces(intake, job);
   }
@@ -214,6 +213,7 @@ Job openJob(const TrialInput& input,
     job.warn(warning);
   }
   job.decisions = intake.decisions();
+  resolveMarkers(job);
   openEmg(job);
   job.quiet = false;
   return job;

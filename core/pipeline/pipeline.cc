@@ -24,7 +24,7 @@ void Pipeline::checkInput(const TrialInput& input, const InputFile& settings_jso
   const PipelineSettings settings = readSettings(settings_json);
   checkParts(input, settings);
   const bool uses_marker_set = settings.runs(Stage::kScale) || settings.runs(Stage::kIk);
-  if (uses_marker_set && !input.marker_set) {
+  if (uses_marker_set && !input.marker_set && !isAutomatic(input, settings)) {
     openMarkerSet(input, settings, models_folder_);
   }
 }

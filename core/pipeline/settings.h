@@ -107,6 +107,9 @@ enum class ScaleMethod {
   kMotion,  ///< fitted to the motion together with marker offsets and poses
 };
 
+/// Names the marker set that follows from the names of the markers.
+inline constexpr const char* kAutomaticMarkerSet = "auto";
+
 /// A settings document (models/settings/*.json) as values. Every field has a default, and the
 /// defaults together run any trial with the model's own marker names.
 struct PipelineSettings {
@@ -130,7 +133,8 @@ struct PipelineSettings {
   /// Set where the job is one of the paper's two trials: the result then holds the acceptance list.
   std::optional<PaperTrial> paper_trial;
 
-  std::string marker_set = "rajagopal2016";  ///< name of models/marker_sets/*.json
+  /// Name of models/marker_sets/*.json, or kAutomaticMarkerSet.
+  std::string marker_set = kAutomaticMarkerSet;
   ScaleMethod scale_method = ScaleMethod::kAuto;
   std::optional<double> fiber_damping;
 

@@ -61,6 +61,28 @@ TEST(InspectTrial, SaysWhatTheSampleTrialHolds) {
   EXPECT_EQ(view.files[3].labels.size(), 80U);
 }
 
+// What every marker was taken for, what is stated wins, and what is stated of nobody is said.
+TEST(InspectTrial, SaysWhichLandmarkEachMarkerIs) {
+  api::TrialUpload upload;
+  upload.files = {{"markers", readSample("sample/markers.trc")},
+                  {"marker_names", {"names.json", api::makeByteSource(R"({"RTH1": null})")}}};
+  const api::TrialView view = inspectTrial(upload);
+  ASSERT_TRUE(view.marker_names.has_value());
+  EXPECT_EQ(view.marker_names->set, "rajagopal2016");
+  EXPECT_EQ(view.marker_names->markers.size(), 42U);
+  EXPECT_TRUE(view.marker_names->missing.empty());
+  for (const api::MarkerNameView& name : view.marker_names->markers) {
+    EXPECT_EQ(name.landmark, name.measured == "RTH1" ? "" : name.measured);
+  }
+  EXPECT_EQ(view.files.back().part, "marker_names");
+  EXPECT_EQ(view.files.back().format, "json");
+
+  upload.files["marker_names"].bytes = api::makeByteSource(R"({"M1": "RASI"})");
+  EXPECT_EQ(inspectTrial(upload).warnings.back(), "marker_names.M1: no marker 'M1' was measured");
+  upload.files["marker_names"].bytes = api::makeByteSource(R"({"RASI": "RASY"})");
+  EXPECT_THROW(inspectTrial(upload), Error);
+}
+
 TEST(InspectTrial, SaysWhatAnAnalogFileHolds) {
   std::string text =
       "File_Type:\tAnalog R/C ASCII\nBitDepth:\t16\tPreciseRate:\t1000\n\n"

@@ -20,6 +20,25 @@ TEST(ParseTrialSubject, TakesOptionsAndMarkerSet) {
   EXPECT_EQ(subject.options, R"({"ik":{"x":1}})");
 }
 
+// Trials that were stored before this was told have no marker names.
+TEST(Understanding, KeepsMarkerNames) {
+  TrialView trial;
+  trial.marker_names =
+      MarkerNamesView{"plug_in_gait",
+                      0.5,
+                      {{"RKNE", "RLFC", 0.98, "lateral condyle", "plug_in_gait", "", 0},
+                       {"M1", "", 0, "no known set has this name", "", "RASI", 0.2}},
+                      {{"left foot", 2, 1, {"LCAL", "LTOE"}}}};
+  TrialView read;
+  decodeUnderstanding(encodeUnderstanding(trial), read);
+  ASSERT_TRUE(read.marker_names.has_value());
+  EXPECT_EQ(toJson(*read.marker_names), toJson(*trial.marker_names));
+  EXPECT_EQ(read.marker_names->markers[1].proposal, "RASI");
+  EXPECT_EQ(read.marker_names->missing[0].any_of[1], "LTOE");
+  decodeUnderstanding(R"({"files": [], "events": [], "warnings": []})", read);
+  EXPECT_FALSE(read.marker_names.has_value());
+}
+
 class BadSubject : public ::testing::TestWithParam<const char*> {};
 TEST_P(BadSubject, IsRefusedWithItsField) {
   try {

@@ -92,7 +92,7 @@ TEST(Settings, DeepNestingIsRefused) {
 
 TEST(Settings, AnEmptyDocumentHasEveryDefault) {
   const PipelineSettings settings = readText("{}");
-  EXPECT_EQ(settings.marker_set, "rajagopal2016");
+  EXPECT_EQ(settings.marker_set, "auto");
   EXPECT_EQ(settings.forces.reading.threshold, 20.0);
   EXPECT_EQ(settings.so.exponent, 2.0);
   EXPECT_EQ(settings.cmc.window, 0.010);
