@@ -17,6 +17,7 @@
 #include "core/io/osim_reader.h"
 #include "core/io/table_reader.h"
 #include "core/io/trc_reader.h"
+#include "core/pipeline/gait_reading.h"
 #include "core/pipeline/intake.h"
 #include "core/pipeline/marker_names_json.h"
 #include "core/pipeline/understanding.h"
@@ -48,6 +49,7 @@ class Inspection {
   void inspectMarkers(const OpenedFile& file, UnderstoodFile& understood, Warnings& warnings);
   void inspectForces(const OpenedFile& file, UnderstoodFile& understood, Warnings& warnings);
   void understand(const TableFile& table, UnderstoodFile& understood, Warnings& warnings);
+  void put(const Gait& gait);
 
   void nameMarkers();
 
@@ -110,12 +112,20 @@ api::ContactView makeContact(const FootContact& contact) {
           contact.contact.strike,
           contact.contact.toe_off,
           contact.contact.has_strike,
-          contact.contact.has_toe_off};
+          contact.contact.has_toe_off,
+          contact.confidence,
+          contact.reason,
+          listFlags(contact)};
 }
 
 api::GaitEventView makeEvent(const GaitEvent& event) {
   const bool is_strike = event.kind == GaitEvent::Kind::kFootStrike;
-  return {is_strike ? "foot_strike" : "toe_off", footName(event.foot), event.time};
+  api::GaitEventView view{is_strike ? "foot_strike" : "toe_off", footName(event.foot), event.time};
+  view.source = event.source == GaitEvent::Source::kForces ? "forces" : "markers";
+  if (std::isfinite(event.marker_difference)) {
+    view.marker_difference = event.marker_difference;
+  }
+  return view;
 }
 
 api::RecordingView makeRecording(const C3dFile& file) {
@@ -217,6 +227,7 @@ void Inspection::inspectMarkers(const OpenedFile& file,
   }
   if (understood.part == "markers") {
     movement_ = understood.format == "c3d" ? readInGround(file, warnings) : std::move(markers);
+    put(understandMovement(movement_));  // until forces tell more
   }
 }
 
@@ -264,14 +275,20 @@ void Inspection::inspectForces(const OpenedFile& file,
 void Inspection::understand(const TableFile& table,
                             UnderstoodFile& understood,
                             Warnings& warnings) {
-  const ForceUnderstanding forces = understandForces(table, movement_);
-  for (const FootContact& contact : forces.contacts) {
+  const Gait gait = understandForces(table, movement_, warnings);
+  for (const FootContact& contact : gait.contacts) {
     understood.contacts.push_back(makeContact(contact));
   }
-  for (const GaitEvent& event : forces.events) {
+  warnings.insert(warnings.end(), gait.warnings.begin(), gait.warnings.end());
+  put(gait);
+}
+
+void Inspection::put(const Gait& gait) {
+  view_.events.clear();
+  for (const GaitEvent& event : gait.events) {
     view_.events.push_back(makeEvent(event));
   }
-  warnings.insert(warnings.end(), forces.warnings.begin(), forces.warnings.end());
+  view_.gait = describeAsJson(gait);
 }
 
 void Inspection::inspect(const OpenedFile& file, UnderstoodFile& understood, Warnings& warnings) {

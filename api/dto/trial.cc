@@ -49,7 +49,10 @@ json toJson(const ContactView& contact) {
           {"start_s", contact.strike},
           {"end_s", contact.toe_off},
           {"starts_with_foot_strike", contact.has_strike},
-          {"ends_with_toe_off", contact.has_toe_off}};
+          {"ends_with_toe_off", contact.has_toe_off},
+          {"confidence", contact.confidence},
+          {"reason", contact.reason},
+          {"flags", contact.flags}};
 }
 
 ContactView toContact(const json& object) {
@@ -60,6 +63,10 @@ ContactView toContact(const json& object) {
   contact.toe_off = object.at("end_s");
   contact.has_strike = object.at("starts_with_foot_strike");
   contact.has_toe_off = object.at("ends_with_toe_off");
+  // Trials stored by earlier versions do not have these.
+  contact.confidence = object.value("confidence", 0.0);
+  contact.reason = object.value("reason", "");
+  contact.flags = object.value("flags", std::vector<std::string>{});
   return contact;
 }
 
@@ -132,11 +139,22 @@ MarkerFaultView toMarkerFault(const json& object) {
 }
 
 json toJson(const GaitEventView& event) {
-  return {{"event", event.kind}, {"foot", event.foot}, {"time_s", event.time}};
+  return {{"event", event.kind},
+          {"foot", event.foot},
+          {"time_s", event.time},
+          {"source", event.source},
+          {"marker_difference_s",
+           event.marker_difference ? json(*event.marker_difference) : json(nullptr)}};
 }
 
 GaitEventView toEvent(const json& object) {
-  return {object.at("event"), object.at("foot"), object.at("time_s")};
+  GaitEventView event{object.at("event"), object.at("foot"), object.at("time_s")};
+  event.source = object.value("source", "forces");
+  const auto difference = object.find("marker_difference_s");
+  if (difference != object.end() && !difference->is_null()) {
+    event.marker_difference = difference->get<double>();
+  }
+  return event;
 }
 
 json toJson(const UnderstoodFile& file);
@@ -281,6 +299,7 @@ std::string renderTrial(const TrialView& trial) {
               {"files", toList(trial.files)},
               {"marker_names", markerNamesOrNull(trial)},
               {"events", toList(trial.events)},
+              {"gait", json::parse(trial.gait)},
               {"warnings", trial.warnings}};
   if (is_stored) {
     object["created_at"] = formatTimestamp(trial.created_at);
@@ -295,6 +314,7 @@ std::string encodeUnderstanding(const TrialView& trial) {
   return dumpJson({{"files", toList(trial.files)},
                    {"marker_names", markerNamesOrNull(trial)},
                    {"events", toList(trial.events)},
+                   {"gait", json::parse(trial.gait)},
                    {"warnings", trial.warnings}});
 }
 
@@ -315,6 +335,7 @@ void decodeUnderstanding(const std::string& text, TrialView& trial) {
     for (const json& event : object.at("events")) {
       trial.events.push_back(toEvent(event));
     }
+    trial.gait = object.contains("gait") ? object.at("gait").dump() : "null";
     trial.warnings = object.at("warnings").get<std::vector<std::string>>();
   } catch (const json::exception&) {
     throw Error(ErrorCode::kStorage, "what was understood of a trial is damaged");

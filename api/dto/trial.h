@@ -52,6 +52,10 @@ struct ContactView {
   double toe_off = 0;  ///< [s]; end of the record if it goes on
   bool has_strike = false;
   bool has_toe_off = false;
+  double confidence = 0;                ///< that the foot is right, 0 to 1
+  std::string reason = {};              ///< the evidence
+  std::vector<std::string> flags = {};  ///< "stated", "shared", "partial", "outside_sole",
+                                        ///< "wrong_foot"
 };
 
 /// One channel of an EMG recording and what it is taken for.
@@ -123,9 +127,12 @@ struct UnderstoodFile {
 };
 
 struct GaitEventView {
-  std::string kind;  ///< "foot_strike", "toe_off"
-  std::string foot;  ///< "right", "left"
-  double time = 0;   ///< [s]
+  std::string kind;               ///< "foot_strike", "toe_off"
+  std::string foot;               ///< "right", "left"
+  double time = 0;                ///< [s]
+  std::string source = "forces";  ///< or "markers"
+  /// Time by the markers minus time by the forces [s], where both know the event.
+  std::optional<double> marker_difference = {};
 };
 
 struct TrialView {
@@ -135,6 +142,9 @@ struct TrialView {
   std::vector<UnderstoodFile> files;
   std::optional<MarkerNamesView> marker_names;  ///< absent without marker files
   std::vector<GaitEventView> events;            ///< by time
+  /// Kind of gait, cycles, complete forces and the default window, as JSON of the core; "null"
+  /// without movement and forces.
+  std::string gait = "null";
   std::vector<std::string> warnings;
 };
 

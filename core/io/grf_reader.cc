@@ -24,6 +24,8 @@ constexpr double kLargestPoint = 50.0;
 constexpr double kLargestTorque = 500.0;
 // A plate counts as surely loaded above this part of the peak, when medians judge the units.
 constexpr double kSurelyLoaded = 0.3;
+// Missing centres of pressure are bridged that far into a contact [s].
+constexpr double kLongestEdge = 0.020;
 // Judging units needs some load even if the threshold is 0 [N].
 constexpr double kLeastLoad = 5.0;
 
@@ -206,8 +208,9 @@ class ForceSelection {
   ForceSelection(GroundReaction all,
                  const std::vector<Foot>& feet,
                  const GrfOptions& options,
-                 const TableFile* file)
-      : all_(std::move(all)), feet_(feet), options_(options), file_(file) {
+                 const TableFile* file,
+                 std::vector<std::string>* warnings)
+      : all_(std::move(all)), feet_(feet), options_(options), file_(file), warnings_(warnings) {
     if (file != nullptr) {
       families_ = findFamilies(file->table.labels);
     }
@@ -220,7 +223,9 @@ class ForceSelection {
     for (std::size_t i = 0; i < all_.forces.size(); ++i) {
       ExternalForce& force = all_.forces[i];
       force.body = findBody(force.name, feet_[i]);
-      if (!force.body.empty()) {
+      const bool is_kept = options_.plates.empty() && options_.unnamed == UnnamedPlates::kKeep;
+      if (!force.body.empty() || is_kept) {
+        bridgeEdges(force);
         checkForce(force);
         gate(force);
         reaction.forces.push_back(std::move(force));
@@ -242,6 +247,8 @@ class ForceSelection {
   void requireUnits(const ExternalForce& force) const;
   void requireLoad(const GroundReaction& reaction) const;
   void gate(ExternalForce& force) const;
+  void bridgeEdges(ExternalForce& force) const;
+  bool isLoaded(const ExternalForce& force, Eigen::Index row) const;
   const Family* findFamily(const std::string& name) const;
   [[noreturn]] void fail(ErrorCode code,
                          const std::string& message,
@@ -257,6 +264,7 @@ class ForceSelection {
   const std::vector<Foot>& feet_;
   const GrfOptions& options_;
   const TableFile* file_;
+  std::vector<std::string>* warnings_;
   std::vector<Family> families_;
 };
 
@@ -334,6 +342,9 @@ std::string ForceSelection::findBody(const std::string& name, Foot foot) const {
   if (!options_.plates.empty()) {
     return "";
   }
+  if (foot == Foot::kUnknown && options_.unnamed == UnnamedPlates::kKeep) {
+    return "";
+  }
   if (foot == Foot::kUnknown) {
     fail(ErrorCode::kGrfColumns,
          "columns '" + name + "' name a plate, not a foot; assign plates to feet (found " +
@@ -343,10 +354,71 @@ std::string ForceSelection::findBody(const std::string& name, Foot foot) const {
   return foot == Foot::kRight ? options_.right_body : options_.left_body;
 }
 
+bool ForceSelection::isLoaded(const ExternalForce& force, Eigen::Index row) const {
+  return std::abs(force.force(1, row)) >= options_.threshold && force.force(1, row) != 0;
+}
+
+void ForceSelection::bridgeEdges(ExternalForce& force) const {
+  const auto time = [&](Eigen::Index row) {
+    return all_.time[static_cast<std::size_t>(row)];
+  };
+  const auto is_known = [&](Eigen::Index row) {
+    return force.point.col(row).allFinite() && force.torque.col(row).allFinite();
+  };
+  const auto copy = [&](Eigen::Index from, Eigen::Index to) {
+    force.point.col(to) = force.point.col(from);
+    force.torque.col(to) = force.torque.col(from);
+  };
+  int bridged = 0;
+  double first_time = 0;
+  const Eigen::Index rows = force.force.cols();
+  for (Eigen::Index first = 0; first < rows; ++first) {
+    if (!isLoaded(force, first)) {
+      continue;
+    }
+    Eigen::Index last = first;
+    while (last + 1 < rows && isLoaded(force, last + 1)) {
+      ++last;
+    }
+    Eigen::Index known_first = first;
+    while (known_first <= last && !is_known(known_first)) {
+      ++known_first;
+    }
+    Eigen::Index known_last = last;
+    while (known_last > known_first && !is_known(known_last)) {
+      --known_last;
+    }
+    const bool is_blip = known_first > last && time(last) - time(first) <= kLongestEdge;
+    if (is_blip) {
+      force.force.middleCols(first, last - first + 1).setZero();
+      force.torque.middleCols(first, last - first + 1).setZero();
+    }
+    const bool at_start = known_first <= last && time(known_first) - time(first) <= kLongestEdge;
+    for (Eigen::Index row = first; at_start && row < known_first; ++row) {
+      copy(known_first, row);
+    }
+    const bool at_end = known_first <= last && time(last) - time(known_last) <= kLongestEdge;
+    for (Eigen::Index row = known_last + 1; at_end && row <= last; ++row) {
+      copy(known_last, row);
+    }
+    const bool missing = known_first > first || known_last < last;
+    if (missing && (is_blip || at_start || at_end)) {
+      first_time = bridged == 0 ? time(first) : first_time;
+      ++bridged;
+    }
+    first = last;
+  }
+  if (bridged > 0 && warnings_ != nullptr) {
+    warnings_->push_back("'" + force.name +
+                         "': the centre of pressure is missing at the edges of " +
+                         std::to_string(bridged) + " contacts, first near " +
+                         formatNumber(first_time) + " s; the nearest known one is used");
+  }
+}
+
 void ForceSelection::requireNumbers(const ExternalForce& force) const {
   for (Eigen::Index row = 0; row < force.force.cols(); ++row) {
-    const bool loaded =
-        std::abs(force.force(1, row)) >= options_.threshold && force.force(1, row) != 0;
+    const bool loaded = isLoaded(force, row);
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       if (!std::isfinite(force.force(axis, row))) {
         failAt(force, Quantity::kForce, axis, row, "a force is missing");
@@ -484,9 +556,10 @@ GroundReaction readForceColumns(const TableFile& file) {
 GroundReaction selectForces(GroundReaction all,
                             const std::vector<Foot>& feet,
                             const GrfOptions& options,
-                            const TableFile* file) {
+                            const TableFile* file,
+                            std::vector<std::string>* warnings) {
   check(feet.size() == all.forces.size(), "every force needs its foot, known or not");
-  return ForceSelection(std::move(all), feet, options, file).select();
+  return ForceSelection(std::move(all), feet, options, file, warnings).select();
 }
 
 GroundReaction readGroundReaction(const TableFile& file, const GrfOptions& options) {

@@ -14,6 +14,12 @@ struct PlateAssignment {
   std::string body;
 };
 
+/// What becomes of a plate of which nobody says which foot stands on it.
+enum class UnnamedPlates {
+  kRefuse,
+  kKeep,  ///< its body stays empty: contacts tell the feet
+};
+
 struct GrfOptions {
   /// Below this vertical force the plate counts as unloaded [N]. 0 takes every sample as it is.
   double threshold = 20.0;
@@ -22,6 +28,7 @@ struct GrfOptions {
   /// Needed for plates that are only numbered; where given, families that are not listed are left
   /// out.
   std::vector<PlateAssignment> plates;
+  UnnamedPlates unnamed = UnnamedPlates::kRefuse;
 };
 
 /// Families of force columns in a table, as ExternalForce::name: the labels without the axis and
@@ -41,14 +48,19 @@ std::vector<Foot> findFamilyFeet(const std::vector<std::string>& labels);
 GroundReaction readForceColumns(const TableFile& file);
 
 /// The forces that feet use, each with its body, checked and zero where the plate is unloaded.
+/// Centres of pressure may be missing where the plate is unloaded. Where they are missing for at
+/// most 20 ms at the edge of a contact, where force plates know them worst, the nearest one of the
+/// same contact is taken, and a contact as short as that without any is none; both with a warning.
 /// @param all   in ground axes, N, m and N.m on the subject; bodies are replaced
 /// @param feet  one per force, as findFamilyFeet
 /// @param file  to name lines and columns in messages, or null
+/// @param warnings  gets sentences, or null
 /// @throws Error as readGroundReaction
 GroundReaction selectForces(GroundReaction all,
                             const std::vector<Foot>& feet,
                             const GrfOptions& options,
-                            const TableFile* file);
+                            const TableFile* file,
+                            std::vector<std::string>* warnings = nullptr);
 
 /// Ground reactions out of a table: one ExternalForce per family that a foot uses, in the order of
 /// the columns. Side r, R_ or no side at all is the right foot; l, L_ or the number 1 in front

@@ -13,6 +13,7 @@
 #include "core/analysis/emg_comparison.h"
 #include "core/analysis/emg_envelope.h"
 #include "core/analysis/foot_contacts.h"
+#include "core/analysis/gait.h"
 #include "core/analysis/joint_reserves.h"
 #include "core/analysis/marker_statistics.h"
 #include "core/analysis/muscle_analysis.h"
@@ -74,7 +75,8 @@ struct Job {
   MarkerSetSpec marker_set;  ///< what scaling and inverse kinematics work with
   std::vector<MarkerTrajectories> static_poses;
   MarkerTrajectories markers;
-  GroundReaction reaction;
+  GroundReaction reaction;          ///< each force acts on one body all the time
+  Gait gait;                        ///< contacts, events, cycles, and what is simulated
   TimeSeries measured_coordinates;  ///< from IK or from a file [rad|m]
   TimeSeries motion;                ///< after residual reduction: what SO and CMC follow
   std::optional<JobEmg> emg;        ///< if the trial has any that can be used
@@ -132,11 +134,19 @@ void runStage(Stage stage, Job& job);
 /// Makes a stage's result what later stages work on: models, motion. Analyses muscle forces.
 void takeOver(Stage stage, Job& job);
 
-/// The gait cycle of the right foot: as set, else the first two strikes in the forces; empty if
-/// there are none.
+/// Fills job.gait and job.reaction: tells which foot stands on which plate and when, and what
+/// follows. @param plates  of selectForces, empty without forces
+/// @throws Error kGrfColumns if no force can be given to a foot, kSettingsValue
+void takeFeet(const GroundReaction& plates, Job& job);
+
+/// What a stage computes unless its own range is stated: the hull of the ranges that are stated for
+/// later stages, else one gait cycle with complete forces (Gait::window), else everything. Behind a
+/// residual reduction with a stated range: everything that it leaves.
+TimeRange findDefaultRange(Stage stage, const Job& job);
+
+/// The gait cycle: as set, else the one that is simulated, else the first; empty if there is none.
 std::optional<GaitCycle> findGaitCycle(const Job& job);
-/// Strikes and toe-offs in the forces, and the cycles of one foot that the kinematics cover.
-std::vector<GaitEvent> findGaitEvents(const Job& job);
+/// The cycles of one foot that the kinematics cover.
 std::vector<GaitCycle> findGaitCycles(const Job& job, Foot foot);
 
 /// Columns of makeGroundReactionTable, over the time of the kinematics.

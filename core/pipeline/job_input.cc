@@ -76,11 +76,20 @@ void filterForces(double cutoff, double threshold, GroundReaction& reaction) {
 }
 
 void openForces(Intake& intake, Job& job) {
-  ForceReading reading = intake.readForces(*findForceFile(*job.input));
-  job.reaction = selectForces(std::move(reading.plates),
-                              reading.feet,
-                              job.settings.forces.reading,
-                              reading.table ? &*reading.table : nullptr);
+  const InputFile& file = *findForceFile(*job.input);
+  ForceReading reading = intake.readForces(file);
+  GrfOptions options = job.settings.forces.reading;
+  options.unnamed = UnnamedPlates::kKeep;
+  std::vector<std::string> warnings;
+  const GroundReaction plates = selectForces(std::move(reading.plates),
+                                             reading.feet,
+                                             options,
+                                             reading.table ? &*reading.table : nullptr,
+                                             &warnings);
+  for (const std::string& warning : warnings) {
+    job.warn(file.name + ": " + warning);
+  }
+  takeFeet(plates, job);
   if (job.settings.forces.lowpass_cutoff) {
     filterForces(
         *job.settings.forces.lowpass_cutoff, job.settings.forces.reading.threshold, job.reaction);
@@ -208,11 +217,13 @@ Job openJob(const TrialInput& input,
   }
   if (needsForces(job.settings)) {
     openForces(intake, job);
+  } else {
+    takeFeet({}, job);
   }
   for (const std::string& warning : intake.warnings()) {
     job.warn(warning);
   }
-  job.decisions = intake.decisions();
+  job.decisions.insert(job.decisions.begin(), intake.decisions().begin(), intake.decisions().end());
   resolveMarkers(job);
   openEmg(job);
   job.quiet = false;

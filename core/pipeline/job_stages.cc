@@ -95,6 +95,12 @@ void runIk(Job& job) {
   takeWarnings("ik", job.ik->warnings, job);
 }
 
+/// What a stage is asked for, by its own settings or by default.
+TimeRange findAskedRange(Stage stage, const TimeRange& stated, const Job& job) {
+  const bool is_stated = std::isfinite(stated.start) || std::isfinite(stated.end);
+  return is_stated ? stated : findDefaultRange(stage, job);
+}
+
 /// The interval in which kinematics and forces both exist, within what was asked.
 TimeRange findCommonRange(const TimeRange& asked,
                           const TimeSeries& motion,
@@ -162,8 +168,8 @@ RraOptions makeRraOptions(const Job& job) {
   options.mass_tolerance = settings.mass_tolerance;
   options.mass_center_tolerance = settings.center_tolerance;
   for (const RraSettings::Pass& pass : settings.passes) {
-    const TimeRange range = findCommonRange(
-        pass.range.value_or(settings.range), job.measured_coordinates, job.reaction);
+    const TimeRange asked = findAskedRange(Stage::kRra, pass.range.value_or(settings.range), job);
+    const TimeRange range = findCommonRange(asked, job.measured_coordinates, job.reaction);
     options.passes.push_back({range.start, range.end, fitTasks(pass, job.scaled)});
   }
   return options;
@@ -216,7 +222,14 @@ const TimeSeries& findAnalysedMotion(const Job& job) {
 void runId(Job& job) {
   const Model model(job.adjusted);
   const ExternalLoads loads(model, job.reaction);
-  IdSolver solver(model, job.settings.id);
+  IdOptions options = job.settings.id;
+  // The forces of a motion out of residual reduction are known all along.
+  if (!job.rra) {
+    const TimeRange asked = findAskedRange(Stage::kId, {options.start_time, options.end_time}, job);
+    options.start_time = asked.start;
+    options.end_time = asked.end;
+  }
+  IdSolver solver(model, options);
   job.id = solver.solve(findAnalysedMotion(job), &loads, makeProgress(Stage::kId, job));
 }
 
@@ -245,7 +258,8 @@ void runSo(Job& job) {
   const ExternalLoads loads(model, job.reaction);
   SoOptions options = job.settings.so;
   options.actuators = makeActuators(job.settings.so_actuators, job.adjusted);
-  TimeRange range = findCommonRange(options.range, job.motion, job.reaction);
+  options.range = findAskedRange(Stage::kSo, options.range, job);
+  const TimeRange range = findCommonRange(options.range, job.motion, job.reaction);
   TimeSeries motion = job.motion;
   if (job.settings.so_interval > 0) {
     motion = resampleUniformly(motion, range, job.settings.so_interval / kRowsPerInterval);
@@ -274,7 +288,8 @@ void runCmc(Job& job) {
   const FreeCoordinates free(model);
   const ReferenceMotion reference(model, free, padOdd(job.motion, kPadRows));
   CmcOptions options = job.settings.cmc;
-  const TimeRange range = findCommonRange(job.settings.cmc_range, job.motion, job.reaction);
+  const TimeRange range = findCommonRange(
+      findAskedRange(Stage::kCmc, job.settings.cmc_range, job), job.motion, job.reaction);
   options.start_time = range.start;
   // The reference ends one integration row early where residual reduction made it; what was asked
   // for counts as long as the padded reference covers it.

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/pipeline/gait_reading.h"
 #include "core/pipeline/job.h"
 #include "core/pipeline/job_emg.h"
 #include "core/pipeline/quality_json.h"
@@ -114,8 +115,10 @@ Json summarizeEvents(const std::vector<GaitEvent>& events) {
   for (const GaitEvent& event : events) {
     list.push_back(
         {{"kind", event.kind == GaitEvent::Kind::kFootStrike ? "foot_strike" : "toe_off"},
-         {"foot", event.foot == Foot::kRight ? "right" : "left"},
-         {"time_s", event.time}});
+         {"foot", footName(event.foot)},
+         {"time_s", event.time},
+         {"source", event.source == GaitEvent::Source::kForces ? "forces" : "markers"},
+         {"marker_difference_s", toJsonNumber(event.marker_difference)}});
   }
   return list;
 }
@@ -176,7 +179,8 @@ std::string makeSummary(const Job& job, const JobQuality& quality) {
     summary["gait_cycle_s"] = {cycle->start, cycle->end};
   }
   summary["subject"] = summarizeSubject(job);
-  summary["events"] = summarizeEvents(findGaitEvents(job));
+  summary["events"] = summarizeEvents(job.gait.events);
+  summary["gait"] = Json::parse(describeAsJson(job.gait));
   summary["cycles"] = {{"right", summarizeCycles(findGaitCycles(job, Foot::kRight))},
                        {"left", summarizeCycles(findGaitCycles(job, Foot::kLeft))}};
   if (job.analysis) {

@@ -59,6 +59,26 @@ void visitLaboratory(Fields& fields, PipelineSettings& settings) {
   fields.number("max_gap_s", {0, 10}, settings.marker_faults.max_gap);
 }
 
+/// Contacts whose feet are stated, and the cycle that is simulated.
+template <class Fields>
+void visitFeet(Fields& fields, PipelineSettings& settings) {
+  static const Choices<Foot> kFeet = {{"right", Foot::kRight}, {"left", Foot::kLeft}};
+  static const Choices<Foot> kFeetOrNone = {
+      {"right", Foot::kRight}, {"left", Foot::kLeft}, {"none", Foot::kUnknown}};
+  fields.list("contacts", settings.contacts, [](auto& inner, ContactStatement& contact) {
+    inner.need("plate");
+    inner.text("plate", contact.plate);
+    inner.need("time_s");
+    inner.number("time_s", {}, contact.time);
+    inner.need("foot");
+    inner.choice("foot", kFeetOrNone, contact.foot);
+  });
+  fields.object("cycle", settings.cycle, [](auto& inner, CycleChoice& cycle) {
+    inner.choice("foot", kFeet, cycle.foot);
+    inner.count("number", {1, 100000}, cycle.number);
+  });
+}
+
 template <class Fields>
 void visitTrial(Fields& fields, PipelineSettings& settings) {
   using Times = TrcOptions::Times;
@@ -87,6 +107,7 @@ void visitTrial(Fields& fields, PipelineSettings& settings) {
   });
   visitLaboratory(fields, settings);
   fields.range("gait_cycle_s", settings.gait_cycle);
+  visitFeet(fields, settings);
   fields.choice("paper_trial",
                 Choices<PaperTrial>{{"walk", PaperTrial::kWalk}, {"run", PaperTrial::kRun}},
                 settings.paper_trial);

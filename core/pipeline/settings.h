@@ -9,6 +9,8 @@
 #include "core/analysis/acceptance.h"
 #include "core/analysis/emg_channels.h"
 #include "core/analysis/emg_envelope.h"
+#include "core/analysis/foot_contacts.h"
+#include "core/analysis/gait_window.h"
 #include "core/cmc/cmc_options.h"
 #include "core/data/marker_set.h"
 #include "core/data/model_spec.h"
@@ -128,7 +130,9 @@ struct PipelineSettings {
   std::optional<double> force_time_offset;  ///< [s] added to the times of the forces
   std::optional<bool> angles_in_degrees;    ///< of a coordinates file
   MarkerFaultOptions marker_faults;
-  std::optional<TimeRange> gait_cycle;  ///< two strikes of the right foot; absent = from the forces
+  std::optional<TimeRange> gait_cycle;  ///< two strikes of the right foot; absent = from the trial
+  std::vector<ContactStatement> contacts;  ///< which foot stands where; wins over all evidence
+  std::optional<CycleChoice> cycle;        ///< that is simulated; absent = the first complete one
 
   /// Set where the job is one of the paper's two trials: the result then holds the acceptance list.
   std::optional<PaperTrial> paper_trial;

@@ -8,6 +8,7 @@
 #include "core/base/text.h"
 #include "core/io/files.h"
 #include "core/io/grf_reader.h"
+#include "core/pipeline/gait_reading.h"
 #include "core/pipeline/marker_set_json.h"
 
 namespace gaitmill {
@@ -29,30 +30,6 @@ MarkerMatch matchOne(const std::set<std::string>& measured, const MarkerSetSpec&
 double calcShare(const MarkerMatch& match) {
   const std::size_t asked = match.found.size() + match.missing.size();
   return asked == 0 ? 0.0 : static_cast<double>(match.found.size()) / static_cast<double>(asked);
-}
-
-/// All families of a table as forces, whichever foot they belong to.
-GroundReaction readAllPlates(const TableFile& table) {
-  GrfOptions options;
-  for (const std::string& family : findForceFamilies(table.table.labels)) {
-    options.plates.push_back({family, family});
-  }
-  return readGroundReaction(table, options);
-}
-
-void warnOfUnknownFeet(const std::vector<FootContact>& contacts,
-                       std::vector<std::string>& warnings) {
-  std::set<std::string> plates;
-  for (const FootContact& contact : contacts) {
-    if (contact.foot == Foot::kUnknown) {
-      plates.insert(contact.plate);
-    }
-  }
-  for (const std::string& plate : plates) {
-    warnings.push_back("which foot stands on plate '" + plate +
-                       "' cannot be told for every contact; assign it in the settings' "
-                       "trial.plates");
-  }
 }
 
 void warnOfDisjointTimes(const std::vector<double>& forces,
@@ -90,17 +67,20 @@ std::vector<MarkerSetSpec> readShippedMarkerSets(const std::string& models_folde
   return sets;
 }
 
-ForceUnderstanding understandForces(const TableFile& table, const MarkerTrajectories& markers) {
-  const GroundReaction reaction = readAllPlates(table);
-  ForceUnderstanding understanding;
-  understanding.contacts =
-      findFootContacts(reaction,
-                       findFamilyFeet(table.table.labels),
-                       makeGaitMotion(markers, findGaitMarkers(markers.names)));
-  understanding.events = findGaitEvents(understanding.contacts);
-  warnOfUnknownFeet(understanding.contacts, understanding.warnings);
-  warnOfDisjointTimes(reaction.time, markers, understanding.warnings);
-  return understanding;
+Gait understandForces(const TableFile& table,
+                      const MarkerTrajectories& markers,
+                      std::vector<std::string>& warnings) {
+  GrfOptions options;
+  options.unnamed = UnnamedPlates::kKeep;
+  const std::vector<Foot> feet = findFamilyFeet(table.table.labels);
+  const GroundReaction plates =
+      selectForces(readForceColumns(table), feet, options, &table, &warnings);
+  warnOfDisjointTimes(plates.time, markers, warnings);
+  return describeGait(plates, feet, markers, findGaitMarkersByLandmark(markers.names));
+}
+
+Gait understandMovement(const MarkerTrajectories& markers) {
+  return describeGait({}, {}, markers, findGaitMarkersByLandmark(markers.names));
 }
 
 EmgUnderstanding understandEmg(const TimeSeries& recording) {

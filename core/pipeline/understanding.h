@@ -5,7 +5,7 @@
 
 #include "core/analysis/emg_channels.h"
 #include "core/analysis/emg_envelope.h"
-#include "core/analysis/foot_contacts.h"
+#include "core/analysis/gait.h"
 #include "core/data/marker_set.h"
 #include "core/data/marker_trajectories.h"
 #include "core/io/table_reader.h"
@@ -28,17 +28,17 @@ std::vector<MarkerMatch> matchMarkers(const std::vector<std::string>& measured,
 /// The marker sets that ship with the models, by name. @throws Error of readMarkerSet
 std::vector<MarkerSetSpec> readShippedMarkerSets(const std::string& models_folder);
 
-struct ForceUnderstanding {
-  std::vector<FootContact> contacts;  ///< by time
-  std::vector<GaitEvent> events;      ///< of the feet that are known, by time
-  std::vector<std::string> warnings;
-};
-
 /// Which foot stands where and when, for column families that name a foot and for numbered plates,
-/// whose feet the markers tell.
-/// @param markers  the movement, or empty (no frames) if it is not there
+/// whose feet the markers tell, as a job with default settings takes it.
+/// @param markers   the movement, or empty (no frames) if it is not there
+/// @param warnings  gets sentences on the force table
 /// @throws Error kGrfColumns, kGrfValue, kGrfUnits as readGroundReaction
-ForceUnderstanding understandForces(const TableFile& table, const MarkerTrajectories& markers);
+Gait understandForces(const TableFile& table,
+                      const MarkerTrajectories& markers,
+                      std::vector<std::string>& warnings);
+
+/// The same of a recording without forces.
+Gait understandMovement(const MarkerTrajectories& markers);
 
 struct EmgUnderstanding {
   EmgSource source = EmgSource::kEnvelope;  ///< kRaw or kEnvelope

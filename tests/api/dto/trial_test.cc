@@ -108,6 +108,11 @@ TEST(Understanding, SurvivesStorage) {
   emg.emg = EmgView{"raw", {{"GAS", "right", {"gasmed_r", "gaslat_r"}}}, {"F1X"}};
   trial.files = {markers, forces, emg};
   trial.events = {{"foot_strike", "left", 0.5}};
+  trial.events[0].source = "markers";
+  trial.events[0].marker_difference = -0.02;
+  trial.files[1].contacts[0].confidence = 0.98;
+  trial.files[1].contacts[0].flags = {"shared"};
+  trial.gait = R"({"kind":"walking"})";
   trial.warnings = {"a cut last row"};
   const std::string text = encodeUnderstanding(trial);
   TrialView back;
@@ -123,6 +128,9 @@ TEST(Understanding, SurvivesStorage) {
   EXPECT_EQ(back.files[2].emg->channels[0].muscles.size(), 2U);
   EXPECT_EQ(back.files[2].emg->force_channels, std::vector<std::string>{"F1X"});
   EXPECT_EQ(back.events[0].time, 0.5);
+  EXPECT_EQ(back.events[0].marker_difference, -0.02);
+  EXPECT_EQ(back.files[1].contacts[0].flags, std::vector<std::string>{"shared"});
+  EXPECT_EQ(nlohmann::json::parse(renderTrial(back))["gait"]["kind"], "walking");
   EXPECT_EQ(back.warnings, trial.warnings);
 }
 

@@ -50,6 +50,72 @@ TEST(GrfReader, UnloadedSamplesBecomeExactlyZero) {
   EXPECT_EQ(force.torque.col(1), Eigen::Vector3d(0, 3, 0));
 }
 
+/// One plate at 100 Hz, loaded from row 10 to row 59; `missing` rows have no centre of pressure.
+GroundReaction makePlate(const std::vector<int>& missing) {
+  GroundReaction plates;
+  ExternalForce force;
+  force.name = "f1";
+  force.force = force.torque = Eigen::Matrix3Xd::Zero(3, 80);
+  force.point = Eigen::Matrix3Xd::Constant(3, 80, std::nan(""));
+  for (int row = 0; row < 80; ++row) {
+    plates.time.push_back(0.01 * row);
+    if (row >= 10 && row < 60) {
+      force.force(1, row) = 600;
+      force.point.col(row) << 0.01 * row, 0, 0.2;
+    }
+  }
+  for (const int row : missing) {
+    force.point.col(row).setConstant(std::nan(""));
+  }
+  plates.forces = {force};
+  return plates;
+}
+
+GroundReaction select(GroundReaction plates, std::vector<std::string>& warnings) {
+  return selectForces(std::move(plates), {Foot::kRight}, {}, nullptr, &warnings);
+}
+
+TEST(SelectForces, CentresOfPressureMayBeMissingOffThePlate) {
+  std::vector<std::string> warnings;
+  EXPECT_EQ(select(makePlate({}), warnings).forces.size(), 1U);
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST(SelectForces, MissingEdgesOfAContactAreBridgedWithAWarning) {
+  std::vector<std::string> warnings;
+  const ExternalForce force = select(makePlate({10, 11, 59}), warnings).forces[0];
+  EXPECT_EQ(force.point(0, 10), 0.01 * 12);
+  EXPECT_EQ(force.point(0, 11), 0.01 * 12);
+  EXPECT_EQ(force.point(0, 59), 0.01 * 58);
+  EXPECT_EQ(force.force(1, 10), 600);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("centre of pressure"), std::string::npos);
+}
+
+TEST(SelectForces, MissingCentresUnderLoadAreRefusedByNameAndTime) {
+  for (const std::vector<int>& missing :
+       {std::vector<int>{30}, {10, 11, 12, 13}, {59, 58, 57, 56}}) {
+    std::vector<std::string> warnings;
+    try {
+      select(makePlate(missing), warnings);
+      ADD_FAILURE() << "row " << missing[0];
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kGrfValue);
+      EXPECT_EQ(error.where().field, "f1");
+    }
+  }
+}
+
+TEST(SelectForces, KeepsUnnamedPlatesWhereContactsTellTheFeet) {
+  std::vector<std::string> warnings;
+  GrfOptions options;
+  EXPECT_THROW(selectForces(makePlate({}), {Foot::kUnknown}, options, nullptr), Error);
+  options.unnamed = UnnamedPlates::kKeep;
+  const GroundReaction kept = selectForces(makePlate({}), {Foot::kUnknown}, options, nullptr);
+  ASSERT_EQ(kept.forces.size(), 1U);
+  EXPECT_EQ(kept.forces[0].body, "");
+}
+
 TEST(GrfReader, NumberedPlatesNeedAnAssignment) {
   const TableFile table = readTable(
       "time ground_force_1_vx ground_force_1_vy ground_force_1_vz ground_force_1_px "

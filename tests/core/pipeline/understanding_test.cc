@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -55,34 +56,48 @@ TEST(MatchMarkers, NamesWhatIsMissing) {
   EXPECT_EQ(matches[0].missing, std::vector<std::string>{"RASI"});
 }
 
+struct Understood {
+  Gait gait;
+  std::vector<std::string> warnings;
+};
+
+Understood understand(Columns columns, const MarkerTrajectories& markers) {
+  Understood understood;
+  understood.gait = understandForces(readSampleForces(columns), markers, understood.warnings);
+  return understood;
+}
+
 TEST(UnderstandForces, ColumnsNameTheFeet) {
-  const ForceUnderstanding read = understandForces(readSampleForces(Columns::kFeet), {});
-  ASSERT_GE(read.contacts.size(), 3U);
-  for (const FootContact& contact : read.contacts) {
+  const Understood read = understand(Columns::kFeet, {});
+  ASSERT_GE(read.gait.contacts.size(), 3U);
+  for (const FootContact& contact : read.gait.contacts) {
     EXPECT_EQ(contact.foot, contact.plate.back() == 'r' ? Foot::kRight : Foot::kLeft);
   }
   EXPECT_TRUE(read.warnings.empty());
-  ASSERT_FALSE(read.events.empty());
+  ASSERT_FALSE(read.gait.events.empty());
 }
 
 TEST(UnderstandForces, MarkersTellTheFeetOfNumberedPlates) {
-  const ForceUnderstanding named = understandForces(readSampleForces(Columns::kFeet), {});
-  const ForceUnderstanding numbered =
-      understandForces(readSampleForces(Columns::kPlates), readSampleMarkers());
+  const Gait named = understand(Columns::kFeet, readSampleMarkers()).gait;
+  const Gait numbered = understand(Columns::kPlates, readSampleMarkers()).gait;
   ASSERT_EQ(numbered.contacts.size(), named.contacts.size());
   for (std::size_t i = 0; i < named.contacts.size(); ++i) {
+    EXPECT_EQ(named.contacts[i].seen, named.contacts[i].foot) << i;
     EXPECT_EQ(numbered.contacts[i].foot, named.contacts[i].foot) << i;
+    EXPECT_GT(numbered.contacts[i].confidence, 0.95) << i;
     EXPECT_EQ(numbered.contacts[i].contact.strike, named.contacts[i].contact.strike) << i;
   }
   EXPECT_EQ(numbered.events.size(), named.events.size());
-  EXPECT_TRUE(numbered.warnings.empty());
+  ASSERT_TRUE(numbered.window && named.window);
+  EXPECT_EQ(numbered.window->range.start, named.window->range.start);
+  EXPECT_EQ(numbered.kind, GaitKind::kWalking);
 }
 
 TEST(UnderstandForces, WithoutMarkersNumberedPlatesAreNobodys) {
-  const ForceUnderstanding read = understandForces(readSampleForces(Columns::kPlates), {});
-  EXPECT_FALSE(read.contacts.empty());
-  EXPECT_TRUE(read.events.empty());
-  EXPECT_EQ(read.warnings.size(), 2U);
+  const Gait gait = understand(Columns::kPlates, {}).gait;
+  EXPECT_FALSE(gait.contacts.empty());
+  EXPECT_TRUE(gait.events.empty());
+  EXPECT_GE(gait.warnings.size(), 2U);  // one for each plate, and that no force is complete
 }
 
 TEST(UnderstandForces, SaysWhereForcesAndMarkersNeverMeet) {
@@ -90,11 +105,20 @@ TEST(UnderstandForces, SaysWhereForcesAndMarkersNeverMeet) {
   for (double& time : late.time) {
     time += 100;
   }
-  EXPECT_EQ(understandForces(readSampleForces(Columns::kFeet), late).warnings.size(), 1U);
+  EXPECT_EQ(understand(Columns::kFeet, late).warnings.size(), 1U);
 }
 
 TEST(UnderstandForces, RefusesATableWithoutForces) {
-  EXPECT_THROW(understandForces(readTable("a\nendheader\ntime\tb\n0\t1\n", "a.sto"), {}), Error);
+  std::vector<std::string> warnings;
+  EXPECT_THROW(understandForces(readTable("a\nendheader\ntime\tb\n0\t1\n", "a.sto"), {}, warnings),
+               Error);
+}
+
+TEST(UnderstandMovement, TellsEventsAndCyclesWithoutForces) {
+  const Gait gait = understandMovement(readSampleMarkers());
+  EXPECT_EQ(gait.kind, GaitKind::kWalking);
+  EXPECT_FALSE(gait.cycles.empty());
+  EXPECT_FALSE(gait.window.has_value());
 }
 
 }  // namespace
