@@ -241,6 +241,7 @@ int httpStatus(ErrorCode code) {
     case ErrorCode::kInputMissing:
     case ErrorCode::kInputMarkers:
     case ErrorCode::kInputCoordinates:
+    case ErrorCode::kInputAmbiguous:
     case ErrorCode::kInputTimeRange:
     case ErrorCode::kInputValue:
     case ErrorCode::kRequestField:

@@ -148,7 +148,8 @@ void setCutoff(const Job& job, RraOptions& options) {
     options.lowpass_reason = "as the settings state";
     return;
   }
-  const bool running = isRunning(job.reaction);
+  const bool running = job.gait.kind == GaitKind::kUnknown ? isRunning(job.reaction)
+                                                           : job.gait.kind == GaitKind::kRunning;
   options.lowpass_cutoff = running ? kRunningCutoff : kWalkingCutoff;
   options.lowpass_reason = running ? "running: steps are short and the body leaves the ground"
                                    : "walking: no flight between steps";
