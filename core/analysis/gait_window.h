@@ -37,8 +37,8 @@ struct SimulatedWindow {
 
 /// Computed muscle control starts up over 30 ms; this much is simulated before a cycle counts [s].
 inline constexpr double kLeadIn = 0.035;
-/// Residual reduction loses 1 ms at its end and control windows last 10 ms [s].
-inline constexpr double kLeadOut = 0.010;
+/// Residual reduction and control windows of 10 ms lose up to 12 ms at the end [s].
+inline constexpr double kLeadOut = 0.025;
 
 /// All cycles of the right, then of the left foot, each by time. @param complete  of ForceCoverage
 std::vector<NumberedCycle> listCycles(const std::vector<GaitEvent>& events,
