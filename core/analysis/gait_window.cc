@@ -82,7 +82,7 @@ Window takeShort(const NumberedCycle& cycle,
                              cycle,
                              false,
                              nameCycle(cycle) + " has complete forces",
-                             "less than 30 ms before " + nameCycle(cycle) +
+                             "less than 100 ms before " + nameCycle(cycle) +
                                  " can be simulated; its first percents contain the start-up"};
     }
   }

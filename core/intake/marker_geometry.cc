@@ -264,6 +264,9 @@ void checkFronts(const Evidence& evidence, MarkerMapping& mapping) {
       wrong[name] += distance.value() < -kCrossing ? 1 : 0;
     }
   }
+  // Names are contradicted after all pairs were looked at: one that has lost its landmark would not
+  // be found for its next pair.
+  std::vector<std::pair<MarkerName*, std::string>> contradicted;
   for (const auto& [pair, distance] : evidence.fronts) {
     MarkerName* front = findName(mapping, pair.first);
     MarkerName* back = findName(mapping, pair.second);
@@ -277,10 +280,15 @@ void checkFronts(const Evidence& evidence, MarkerMapping& mapping) {
     const bool only_front = 2 * wrong[pair.second] < seen[pair.second];
     const bool only_back = 2 * wrong[pair.first] < seen[pair.first];
     if (!only_back) {
-      contradict(*front, why, "");
+      contradicted.emplace_back(front, why);
     }
     if (!only_front) {
-      contradict(*back, why, "");
+      contradicted.emplace_back(back, why);
+    }
+  }
+  for (const auto& [name, why] : contradicted) {
+    if (!name->landmark.empty()) {
+      contradict(*name, why, "");
     }
   }
 }

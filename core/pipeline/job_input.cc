@@ -190,7 +190,7 @@ void checkParts(const TrialInput& input, const PipelineSettings& settings) {
     require(findForceFile(input) != nullptr,
             ErrorCode::kInputMissing,
             "a file is missing: grf, the dynamics stages need the ground reactions; without forces "
-            "the stages scale and ik can be run",
+            "only scaling and inverse kinematics can run: set stages.last to \"ik\"",
             {{}, 0, 0, "grf"});
   }
 }

@@ -75,8 +75,7 @@ TimeSeries roundEnvelopes(TimeSeries emg) {
 
 std::string writeTrialPart(const SamplePerson& person) {
   return "{\n  \"mass_kg\": " + formatNumber(person.mass) +
-         ",\n  \"height_m\": " + formatNumber(person.height) +
-         ",\n  \"marker_set\": \"rajagopal2016\"\n}\n";
+         ",\n  \"height_m\": " + formatNumber(person.height) + "\n}\n";
 }
 
 }  // namespace

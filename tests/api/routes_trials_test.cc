@@ -138,8 +138,8 @@ TEST_F(TrialRoutes, ShowsWhatWasUnderstood) {
             json::parse(R"({"marker_set": "lab_a", "found": ["RASI"], "missing": ["RTOE"]})"));
   EXPECT_EQ(trial["files"][1]["contacts"][0]["foot"], "right");
   EXPECT_EQ(trial["files"][1]["contacts"][1]["foot"], nullptr);
-  EXPECT_EQ(trial["events"][1],
-            json::parse(R"({"event": "toe_off", "foot": "right", "time_s": 1.1})"));
+  EXPECT_EQ(trial["events"][1], json::parse(R"({"event": "toe_off", "foot": "right", "time_s": 1.1,
+                            "source": "forces", "marker_difference_s": null})"));
   EXPECT_EQ(reply.headers.at("ETag"), get(trial_).headers.at("ETag"));
 }
 

@@ -190,7 +190,7 @@ TEST(Product, ModelsAreRefusedWithAllThatCannotBeSimulated) {
   const ClientReply reply = service.client().post("/v1/models?name=knee.osim", refused);
   ASSERT_EQ(reply.status, 422) << reply.body;
   EXPECT_EQ(reply.json()["code"], "model.unsupported");
-  const auto& unsupported = reply.json()["unsupported"];
+  const json unsupported = reply.json()["unsupported"];
   ASSERT_EQ(unsupported.size(), 2U) << reply.body;
   EXPECT_EQ(unsupported[0]["element"], "Ligament 'acl'");
   EXPECT_EQ(unsupported[1]["element"], "PathSpring 'band'");
@@ -199,7 +199,7 @@ TEST(Product, ModelsAreRefusedWithAllThatCannotBeSimulated) {
 
   const ClientReply accepted = service.client().post("/v1/models?name=knee.osim", model);
   ASSERT_EQ(accepted.status, 201) << accepted.body;
-  const auto& summary = accepted.json()["summary"];
+  const json summary = accepted.json()["summary"];
   EXPECT_EQ(summary["document_version"], 40000);
   EXPECT_EQ(summary["counts"]["muscle_kinds"]["millard_2012"], 80);
   EXPECT_EQ(summary["counts"]["wrap_objects"]["cylinder"], 40);

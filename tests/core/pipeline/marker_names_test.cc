@@ -66,10 +66,10 @@ TEST(MarkerNamesJob, UnknownNamesAreRefusedWithWhatIsMissing) {
 TEST(MarkerNamesJob, StatedNamesAreHeldAgainstTheFiles) {
   const TrialInput input = readSampleInput();
   const Refusal refusal = runRefused(
-      input, R"({"trial": {"marker_names": {"RSAI": "RASI"}}, "stages": {"last": "ik"}})");
+      input, R"({"trial": {"marker_names": {"RASII": "RASI"}}, "stages": {"last": "ik"}})");
   EXPECT_EQ(refusal.code, "markers.names");
-  EXPECT_EQ(refusal.field, "marker_names.RSAI");
-  EXPECT_EQ(refusal.message, "no marker 'RSAI' was measured, did you mean 'RASI'?");
+  EXPECT_EQ(refusal.field, "marker_names.RASII");
+  EXPECT_EQ(refusal.message, "no marker 'RASII' was measured, did you mean 'RASI'?");
 }
 
 TEST(MarkerNamesJson, NamesTheFieldAndTheNearestLandmark) {
