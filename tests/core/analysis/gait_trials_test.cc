@@ -210,7 +210,10 @@ TEST_F(GaitTrials, RunsAreSimulatedOverOneRightCycle) {
     EXPECT_FALSE(gait.window->is_realigned);
     EXPECT_TRUE(gait.window->cycle->has_complete_forces);
     EXPECT_EQ(gait.window->cycle->foot, Foot::kRight);
-    EXPECT_NEAR(gait.window->range.end - gait.window->range.start, 0.75, tol(0.05));
+    const GaitCycle& cycle = gait.window->cycle->cycle;
+    EXPECT_NEAR(cycle.end - cycle.start, 0.7, tol(0.02));
+    EXPECT_NEAR(gait.window->range.start, cycle.start - kLeadIn, tol(1e-9));
+    EXPECT_NEAR(gait.window->range.end, cycle.end + kLeadOut, tol(1e-9));
     ASSERT_EQ(gait.coverage.complete.size(), 1U);
     EXPECT_TRUE(gait.coverage.missing.empty());
   }

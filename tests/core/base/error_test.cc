@@ -76,7 +76,8 @@ TEST(Where, IsEmptyUntilOneMemberIsKnown) {
 bool isDottedWords(const std::string& name) {
   bool in_word = false;
   for (const char c : name) {
-    const bool letter = (c >= 'a' && c <= 'z') || c == '_';
+    const bool digit = in_word && c >= '0' && c <= '9';  // "c3d"
+    const bool letter = (c >= 'a' && c <= 'z') || c == '_' || digit;
     if (!letter && !(c == '.' && in_word)) {
       return false;
     }
