@@ -17,6 +17,7 @@
 #include "core/io/osim_reader.h"
 #include "core/io/table_reader.h"
 #include "core/io/trc_reader.h"
+#include "core/pipeline/decisions_json.h"
 #include "core/pipeline/gait_reading.h"
 #include "core/pipeline/intake.h"
 #include "core/pipeline/marker_names_json.h"
@@ -39,6 +40,8 @@ struct OpenedFile {
 // markers tell which foot stands on a numbered plate.
 class Inspection {
  public:
+  /// @param options  settings that hold for every job of the trial
+  explicit Inspection(PipelineSettings options) : settings_(std::move(options)) {}
   void read(const std::string& part, const UploadedFile& file);
   api::TrialView take();
 
@@ -48,12 +51,14 @@ class Inspection {
   void inspect(const OpenedFile& file, UnderstoodFile& understood, Warnings& warnings);
   void inspectMarkers(const OpenedFile& file, UnderstoodFile& understood, Warnings& warnings);
   void inspectForces(const OpenedFile& file, UnderstoodFile& understood, Warnings& warnings);
-  void understand(const TableFile& table, UnderstoodFile& understood, Warnings& warnings);
+  void understand(const OpenedFile& file, UnderstoodFile& understood, Warnings& warnings);
   void put(const Gait& gait);
 
   void nameMarkers();
 
   api::TrialView view_;
+  PipelineSettings settings_;
+  Intake intake_{settings_};
   MarkerTrajectories movement_;
   std::vector<std::string> marker_names_;  // of static poses and movement, each once
   MarkerOverrides stated_names_;
@@ -197,11 +202,10 @@ MarkerTrajectories readMarkerFile(const OpenedFile& file,
   return std::move(c3d.markers);
 }
 
-// C3D files have the laboratory's axes.
-MarkerTrajectories readInGround(const OpenedFile& file, std::vector<std::string>& warnings) {
+MarkerTrajectories readInGround(Intake& intake,
+                                const OpenedFile& file,
+                                std::vector<std::string>& warnings) {
   try {
-    const PipelineSettings settings;
-    Intake intake(settings);
     return intake.readMovement({file.name, file.bytes}).markers;
   } catch (const Error& error) {
     warnings.push_back("the gait cannot be told: " + error.message());
@@ -226,7 +230,7 @@ void Inspection::inspectMarkers(const OpenedFile& file,
     }
   }
   if (understood.part == "markers") {
-    movement_ = understood.format == "c3d" ? readInGround(file, warnings) : std::move(markers);
+    movement_ = readInGround(intake_, file, warnings);
     put(understandMovement(movement_));  // until forces tell more
   }
 }
@@ -266,16 +270,17 @@ void Inspection::inspectForces(const OpenedFile& file,
           {file.name, 0, 0, ""});
   warnings = table.warnings;
   try {
-    understand(table, understood, warnings);
+    understand(file, understood, warnings);
   } catch (const Error& error) {
     warnings.push_back("contacts cannot be told: " + error.message());
   }
 }
 
-void Inspection::understand(const TableFile& table,
+void Inspection::understand(const OpenedFile& file,
                             UnderstoodFile& understood,
                             Warnings& warnings) {
-  const Gait gait = understandForces(table, movement_, warnings);
+  const Gait gait =
+      understandForces(intake_.readForces({file.name, file.bytes}), movement_, warnings);
   for (const FootContact& contact : gait.contacts) {
     understood.contacts.push_back(makeContact(contact));
   }
@@ -343,13 +348,27 @@ void Inspection::nameMarkers() {
 
 api::TrialView Inspection::take() {
   nameMarkers();
+  view_.decisions = describeAsJson(intake_.decisions());
   return std::move(view_);
 }
 
 }  // namespace
 
+namespace {
+
+/// Options that no job will take are told when a job is submitted; the files are read without them.
+PipelineSettings readOptions(const std::string& options) {
+  try {
+    return readSettings({"options", options});
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+}  // namespace
+
 api::TrialView inspectTrial(const api::TrialUpload& upload) {
-  Inspection inspection;
+  Inspection inspection(readOptions(upload.subject.options));
   for (const std::string& part : api::trialParts()) {
     const auto found = upload.files.find(part);
     if (found != upload.files.end()) {

@@ -300,6 +300,7 @@ std::string renderTrial(const TrialView& trial) {
               {"marker_names", markerNamesOrNull(trial)},
               {"events", toList(trial.events)},
               {"gait", json::parse(trial.gait)},
+              {"decisions", json::parse(trial.decisions)},
               {"warnings", trial.warnings}};
   if (is_stored) {
     object["created_at"] = formatTimestamp(trial.created_at);
@@ -315,6 +316,7 @@ std::string encodeUnderstanding(const TrialView& trial) {
                    {"marker_names", markerNamesOrNull(trial)},
                    {"events", toList(trial.events)},
                    {"gait", json::parse(trial.gait)},
+                   {"decisions", json::parse(trial.decisions)},
                    {"warnings", trial.warnings}});
 }
 
@@ -336,6 +338,7 @@ void decodeUnderstanding(const std::string& text, TrialView& trial) {
       trial.events.push_back(toEvent(event));
     }
     trial.gait = object.contains("gait") ? object.at("gait").dump() : "null";
+    trial.decisions = object.value("decisions", json::array()).dump();
     trial.warnings = object.at("warnings").get<std::vector<std::string>>();
   } catch (const json::exception&) {
     throw Error(ErrorCode::kStorage, "what was understood of a trial is damaged");

@@ -145,6 +145,8 @@ struct TrialView {
   /// Kind of gait, cycles, complete forces and the default window, as JSON of the core; "null"
   /// without movement and forces.
   std::string gait = "null";
+  /// What was read out of the data rather than stated, as a JSON list of the core.
+  std::string decisions = "[]";
   std::vector<std::string> warnings;
 };
 

@@ -81,7 +81,7 @@ bool isRate(std::optional<double> rate) {
 
 void LayoutFinder::findRate() {
   const std::optional<double> stated = parameters_.findNumber("POINT", "RATE");
-  const double header = file_.real(kRate);
+  const double header = static_cast<double>(file_.real(kRate));
   require(isRate(stated) || isRate(header),
           ErrorCode::kC3dHeader,
           "neither POINT:RATE nor the header states a frame rate",
@@ -106,7 +106,7 @@ C3dLayout LayoutFinder::makeHeaderLayout() const {
   const int samples = file_.word(kSamplesPerFrame);
   layout.subframe_count = std::max<int>(file_.word(kSubframes), 1);
   layout.channel_count = samples / layout.subframe_count;
-  setScale(layout, file_.real(kScale));
+  setScale(layout, static_cast<double>(file_.real(kScale)));
   return layout;
 }
 

@@ -204,7 +204,7 @@ std::vector<double> C3dParameters::readNumbers(const C3dParameter* parameter, Wo
   for (std::size_t i = 0; i < parameter->count; ++i) {
     const std::size_t at = parameter->offset + i * static_cast<std::size_t>(parameter->type);
     if (parameter->type == 4) {
-      numbers.push_back(file_.real(at));
+      numbers.push_back(static_cast<double>(file_.real(at)));
     } else if (parameter->type == 1) {
       numbers.push_back(static_cast<unsigned char>(file_.all()[at]));
     } else {

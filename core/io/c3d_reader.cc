@@ -333,7 +333,7 @@ void C3dParser::readHeaderEvents() {
     for (const char c : bytes_.all().substr(kHeaderEventLabels + 4 * i, 4)) {
       event.label += c > ' ' && c <= '~' ? std::string(1, c) : "";
     }
-    event.time = bytes_.real(kHeaderEventTimes + 4 * i);
+    event.time = static_cast<double>(bytes_.real(kHeaderEventTimes + 4 * i));
     file_.events.push_back(event);
   }
 }

@@ -23,7 +23,7 @@ struct IntegerValues {
 template <C3dProcessor kProcessor>
 struct RealValues {
   static constexpr std::size_t kSize = 4;
-  static double read(const char* at) { return c3d::readReal<kProcessor>(at); }
+  static double read(const char* at) { return static_cast<double>(c3d::readReal<kProcessor>(at)); }
   static double readUnsigned(const char* at) { return read(at); }
 };
 

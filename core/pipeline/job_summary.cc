@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/pipeline/decisions_json.h"
 #include "core/pipeline/gait_reading.h"
 #include "core/pipeline/job.h"
 #include "core/pipeline/job_emg.h"
@@ -131,20 +132,6 @@ Json summarizeCycles(const std::vector<GaitCycle>& cycles) {
   return list;
 }
 
-Json summarizeDecisions(const Decisions& decisions) {
-  Json list = Json::array();
-  for (const Decision& decision : decisions) {
-    list.push_back({{"part", decision.part},
-                    {"topic", decision.topic},
-                    {"field", decision.field},
-                    {"value", decision.value},
-                    {"origin", originName(decision.origin)},
-                    {"confidence", toJsonNumber(decision.confidence)},
-                    {"evidence", decision.evidence}});
-  }
-  return list;
-}
-
 Json summarizeFaults(const MarkerRepair& repair) {
   Json list = Json::array();
   for (const MarkerFault& fault : repair.faults) {
@@ -189,7 +176,7 @@ std::string makeSummary(const Job& job, const JobQuality& quality) {
   if (job.emg) {
     summary["emg"] = summarizeEmg(job);
   }
-  summary["decisions"] = summarizeDecisions(job.decisions);
+  summary["decisions"] = Json::parse(describeAsJson(job.decisions));
   summary["marker_faults"] = summarizeFaults(job.marker_repair);
   summary["settings_used"] = Json::parse(writeSettings(job.settings));
   summary["warnings"] = job.warnings;

@@ -70,13 +70,24 @@ std::vector<MarkerSetSpec> readShippedMarkerSets(const std::string& models_folde
 Gait understandForces(const TableFile& table,
                       const MarkerTrajectories& markers,
                       std::vector<std::string>& warnings) {
+  return understandForces(
+      ForceReading{readForceColumns(table), findFamilyFeet(table.table.labels), table},
+      markers,
+      warnings);
+}
+
+Gait understandForces(ForceReading forces,
+                      const MarkerTrajectories& markers,
+                      std::vector<std::string>& warnings) {
   GrfOptions options;
   options.unnamed = UnnamedPlates::kKeep;
-  const std::vector<Foot> feet = findFamilyFeet(table.table.labels);
-  const GroundReaction plates =
-      selectForces(readForceColumns(table), feet, options, &table, &warnings);
+  const GroundReaction plates = selectForces(std::move(forces.plates),
+                                             forces.feet,
+                                             options,
+                                             forces.table ? &*forces.table : nullptr,
+                                             &warnings);
   warnOfDisjointTimes(plates.time, markers, warnings);
-  return describeGait(plates, feet, markers, findGaitMarkersByLandmark(markers.names));
+  return describeGait(plates, forces.feet, markers, findGaitMarkersByLandmark(markers.names));
 }
 
 Gait understandMovement(const MarkerTrajectories& markers) {

@@ -9,6 +9,7 @@
 #include "core/data/marker_set.h"
 #include "core/data/marker_trajectories.h"
 #include "core/io/table_reader.h"
+#include "core/pipeline/intake.h"
 
 namespace gaitmill {
 
@@ -34,6 +35,10 @@ std::vector<MarkerSetSpec> readShippedMarkerSets(const std::string& models_folde
 /// @param warnings  gets sentences on the force table
 /// @throws Error kGrfColumns, kGrfValue, kGrfUnits as readGroundReaction
 Gait understandForces(const TableFile& table,
+                      const MarkerTrajectories& markers,
+                      std::vector<std::string>& warnings);
+/// The same of forces that were brought into ground.
+Gait understandForces(ForceReading forces,
                       const MarkerTrajectories& markers,
                       std::vector<std::string>& warnings);
 
