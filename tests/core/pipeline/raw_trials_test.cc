@@ -1,4 +1,4 @@
-#include <map>
+#include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -93,18 +93,14 @@ TEST_F(RawTrialsTest, RunWithoutAnyStaticTrial) {
                 1.772});
 }
 
-// The paper's run goes through as well; its verdict names the one thing that is not to be trusted.
-TEST_F(RawTrialsTest, VerdictOfThePapersRunNamesTheReserve) {
+// The paper's run goes through as well; a reserve is all that its verdict may fail on.
+TEST_F(RawTrialsTest, OnlyAReserveFailsThePapersRun) {
   const nlohmann::json summary = run(kRun);
   EXPECT_TRUE(summary["stages"]["cmc"]["finished"].get<bool>());
-  if (summary["verdict"] != "fail") {
-    return;
-  }
+  ASSERT_GT(summary["quality"]["checks"].size(), 15U);
   for (const nlohmann::json& check : summary["quality"]["checks"]) {
-    if (check["verdict"] == "fail") {
-      EXPECT_EQ(check["stage"], "cmc");
-      EXPECT_NE(check.dump().find("reserve"), std::string::npos) << check;
-    }
+    const bool is_reserve = check.dump().find("reserve") != std::string::npos;
+    EXPECT_TRUE(check["verdict"] != "fail" || is_reserve) << check;
   }
 }
 
