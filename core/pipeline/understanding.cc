@@ -67,15 +67,6 @@ std::vector<MarkerSetSpec> readShippedMarkerSets(const std::string& models_folde
   return sets;
 }
 
-Gait understandForces(const TableFile& table,
-                      const MarkerTrajectories& markers,
-                      std::vector<std::string>& warnings) {
-  return understandForces(
-      ForceReading{readForceColumns(table), findFamilyFeet(table.table.labels), table},
-      markers,
-      warnings);
-}
-
 Gait understandForces(ForceReading forces,
                       const MarkerTrajectories& markers,
                       std::vector<std::string>& warnings) {

@@ -8,7 +8,6 @@
 #include "core/analysis/gait.h"
 #include "core/data/marker_set.h"
 #include "core/data/marker_trajectories.h"
-#include "core/io/table_reader.h"
 #include "core/pipeline/intake.h"
 
 namespace gaitmill {
@@ -31,13 +30,10 @@ std::vector<MarkerSetSpec> readShippedMarkerSets(const std::string& models_folde
 
 /// Which foot stands where and when, for column families that name a foot and for numbered plates,
 /// whose feet the markers tell, as a job with default settings takes it.
-/// @param markers   the movement, or empty (no frames) if it is not there
+/// @param forces    in ground
+/// @param markers   the movement in ground, or empty (no frames) if it is not there
 /// @param warnings  gets sentences on the force table
-/// @throws Error kGrfColumns, kGrfValue, kGrfUnits as readGroundReaction
-Gait understandForces(const TableFile& table,
-                      const MarkerTrajectories& markers,
-                      std::vector<std::string>& warnings);
-/// The same of forces that were brought into ground.
+/// @throws Error kGrfColumns, kGrfValue, kGrfUnits as selectForces
 Gait understandForces(ForceReading forces,
                       const MarkerTrajectories& markers,
                       std::vector<std::string>& warnings);

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/io/files.h"
+#include "core/io/grf_reader.h"
 #include "core/io/trc_reader.h"
 #include "tests/support/tolerance.h"
 
@@ -37,6 +38,10 @@ TableFile readSampleForces(Columns columns) {
   return readTable(bytes, "grf.mot");
 }
 
+ForceReading readColumns(const TableFile& table) {
+  return {readForceColumns(table), findFamilyFeet(table.table.labels), table};
+}
+
 TEST(MatchMarkers, PutsTheSetOfTheRecordingFirst) {
   const std::vector<MarkerMatch> matches =
       matchMarkers(readSampleMarkers().names, readShippedMarkerSets("models"));
@@ -63,7 +68,8 @@ struct Understood {
 
 Understood understand(Columns columns, const MarkerTrajectories& markers) {
   Understood understood;
-  understood.gait = understandForces(readSampleForces(columns), markers, understood.warnings);
+  understood.gait =
+      understandForces(readColumns(readSampleForces(columns)), markers, understood.warnings);
   return understood;
 }
 
@@ -110,7 +116,8 @@ TEST(UnderstandForces, SaysWhereForcesAndMarkersNeverMeet) {
 
 TEST(UnderstandForces, RefusesATableWithoutForces) {
   std::vector<std::string> warnings;
-  EXPECT_THROW(understandForces(readTable("a\nendheader\ntime\tb\n0\t1\n", "a.sto"), {}, warnings),
+  EXPECT_THROW(understandForces(
+                   readColumns(readTable("a\nendheader\ntime\tb\n0\t1\n", "a.sto")), {}, warnings),
                Error);
 }
 
