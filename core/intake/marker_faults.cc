@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -86,14 +87,28 @@ class MarkerRepairer {
   bool fitsSwapped(const MarkerCompanions& companions, int frame, int i, int j) const;
   void swapNames(int i, int j, Frames frames);
   void correctCrossings();
-  std::vector<int> findCrossings(int i, int j) const;
+  std::vector<int> findJumps(int marker) const;
+  std::vector<int> findCrossings(int i, int j, const std::vector<int>& jumps) const;
   bool isCrossing(int frame, int i, int j) const;
   void correctCrossing(int i, int j, const std::vector<int>& crossings);
 
   void removeSpikes(const MarkerCompanions& companions);
-  std::optional<double> findDetour(int marker, int first, int count) const;
+  /// One marker over all frames, which lie side by side: neighbours are looked at often.
+  struct Track {
+    Eigen::Matrix3Xd positions;
+    std::vector<char> is_seen;
+  };
+  /// (4 x count) of the cubic through two frames before and two after `count` frames, at these.
+  using CubicWeights = Eigen::Matrix4Xd;
+  Track makeTrack(int marker) const;
+  static CubicWeights makeCubicWeights(int count);
+  static std::optional<double> findDetour(const Track& track,
+                                          const CubicWeights& weights,
+                                          int first,
+                                          double enough);
+  static double findUsualDetour(const Track& track, const CubicWeights& weights);
+  void removeSpikesOf(int marker, int count, const MarkerCompanions& companions, Track& track);
   bool isStep(int marker, int first, int count, double detour) const;
-  double findUsualDetour(int marker, int count) const;
 
   bool isPosture() const;
   void findDrifts();
@@ -235,19 +250,28 @@ bool MarkerRepairer::isCrossing(int frame, int i, int j) const {
          (at(frame, i) - at(frame - 1, j)).norm() < 0.5 * (at(frame, i) - at(frame - 1, i)).norm();
 }
 
-std::vector<int> MarkerRepairer::findCrossings(int i, int j) const {
-  std::vector<int> crossings;
+/// Frames in which a marker is farther than kJump from where it was on its way to.
+std::vector<int> MarkerRepairer::findJumps(int marker) const {
+  std::vector<int> jumps;
   for (int frame = 2; frame < markers_.frameCount(); ++frame) {
-    if (!isSeen(frame, i) || !isSeen(frame, j)) {
-      continue;
+    const Eigen::Vector3d step = at(frame, marker) - at(frame - 1, marker);
+    const Eigen::Vector3d before = at(frame - 1, marker) - at(frame - 2, marker);
+    // False for what is not seen, which is not a number.
+    if ((step - before).squaredNorm() > kJump * kJump) {
+      jumps.push_back(frame);
     }
-    // A cheap look first: without a step of 20 mm there is no jump of it.
-    const bool moves = (at(frame, i) - at(frame - 1, i)).squaredNorm() > 0.25 * kJump * kJump;
-    if (moves && isSeen(frame - 1, i) && isSeen(frame - 2, i) && isSeen(frame - 1, j) &&
-        isSeen(frame - 2, j) && isCrossing(frame, i, j)) {
+  }
+  return jumps;
+}
+
+/// @param jumps  frames in which both markers jump
+std::vector<int> MarkerRepairer::findCrossings(int i, int j, const std::vector<int>& jumps) const {
+  std::vector<int> crossings;
+  for (const int frame : jumps) {
+    // Extrapolation from the two sides of a jump means nothing.
+    const bool follows = !crossings.empty() && frame == crossings.back() + 1;
+    if (!follows && isCrossing(frame, i, j)) {
       crossings.push_back(frame);
-      // Extrapolation from the two sides of a jump means nothing.
-      ++frame;
     }
   }
   return crossings;
@@ -282,11 +306,26 @@ void MarkerRepairer::correctCrossing(int i, int j, const std::vector<int>& cross
 
 // What companions cannot tell: markers without any, and pairs that lie alike to theirs.
 void MarkerRepairer::correctCrossings() {
+  // Few frames have jumps: pairs look at no others, however long the recording is.
+  std::vector<std::vector<int>> jumps;
   for (int i = 0; i < markers_.markerCount(); ++i) {
-    for (int j = i + 1; j < markers_.markerCount(); ++j) {
-      const std::vector<int> crossings = findCrossings(i, j);
+    jumps.push_back(findJumps(i));
+  }
+  for (std::size_t i = 0; i < jumps.size(); ++i) {
+    for (std::size_t j = i + 1; j < jumps.size(); ++j) {
+      std::vector<int> both;
+      std::set_intersection(jumps[i].begin(),
+                            jumps[i].end(),
+                            jumps[j].begin(),
+                            jumps[j].end(),
+                            std::back_inserter(both));
+      const auto first = static_cast<int>(i);
+      const auto second = static_cast<int>(j);
+      const std::vector<int> crossings = findCrossings(first, second, both);
       if (!crossings.empty()) {
-        correctCrossing(i, j, crossings);
+        correctCrossing(first, second, crossings);
+        jumps[i] = findJumps(first);
+        jumps[j] = findJumps(second);
       }
     }
   }
@@ -294,29 +333,53 @@ void MarkerRepairer::correctCrossings() {
 
 // ---- spikes ----
 
-/// Least distance of the frames first ... first + count - 1 from the cubic through two frames at
-/// either side, or nullopt if one of the frames is not seen.
-std::optional<double> MarkerRepairer::findDetour(int marker, int first, int count) const {
-  const int after = first + count;
-  for (int frame = first - 2; frame <= after + 1; ++frame) {
-    if (!isSeen(frame, marker)) {
-      return std::nullopt;
-    }
+MarkerRepairer::Track MarkerRepairer::makeTrack(int marker) const {
+  Track track;
+  track.positions.resize(3, markers_.frameCount());
+  track.is_seen.resize(static_cast<std::size_t>(markers_.frameCount()));
+  for (int frame = 0; frame < markers_.frameCount(); ++frame) {
+    track.positions.col(frame) = at(frame, marker);
+    track.is_seen[static_cast<std::size_t>(frame)] = isSeen(frame, marker) ? 1 : 0;
   }
+  return track;
+}
+
+MarkerRepairer::CubicWeights MarkerRepairer::makeCubicWeights(int count) {
   const double x[4] = {-2.0, -1.0, static_cast<double>(count), count + 1.0};
-  const Eigen::Vector3d p[4] = {
-      at(first - 2, marker), at(first - 1, marker), at(after, marker), at(after + 1, marker)};
-  double least = std::numeric_limits<double>::infinity();
+  CubicWeights weights(4, count);
   for (int k = 0; k < count; ++k) {
-    Eigen::Vector3d way = Eigen::Vector3d::Zero();
     for (int a = 0; a < 4; ++a) {
       double weight = 1;
       for (int b = 0; b < 4; ++b) {
         weight *= a == b ? 1.0 : (k - x[b]) / (x[a] - x[b]);
       }
-      way += weight * p[a];
+      weights(a, k) = weight;
     }
-    least = std::min(least, (at(first + k, marker) - way).norm());
+  }
+  return weights;
+}
+
+/// Least distance of the frames first ... from the cubic through two frames at either side, or
+/// nullopt if one of the frames is not seen.
+/// @param enough  a distance below it is returned as soon as it is found
+std::optional<double> MarkerRepairer::findDetour(const Track& track,
+                                                 const CubicWeights& weights,
+                                                 int first,
+                                                 double enough) {
+  const auto count = static_cast<int>(weights.cols());
+  const int after = first + count;
+  for (int frame = first - 2; frame <= after + 1; ++frame) {
+    if (track.is_seen[static_cast<std::size_t>(frame)] == 0) {
+      return std::nullopt;
+    }
+  }
+  const Eigen::Matrix3Xd& p = track.positions;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < count && least >= enough; ++k) {
+    const Eigen::Vector3d way = weights(0, k) * p.col(first - 2) +
+                                weights(1, k) * p.col(first - 1) + weights(2, k) * p.col(after) +
+                                weights(3, k) * p.col(after + 1);
+    least = std::min(least, (p.col(first + k) - way).norm());
   }
   return least;
 }
@@ -333,10 +396,11 @@ bool MarkerRepairer::isStep(int marker, int first, int count, double detour) con
   return (from_before - from_after).norm() > 0.5 * detour;
 }
 
-double MarkerRepairer::findUsualDetour(int marker, int count) const {
+double MarkerRepairer::findUsualDetour(const Track& track, const CubicWeights& weights) {
   std::vector<double> detours;
-  for (int frame = 2; frame + count + 1 < markers_.frameCount(); ++frame) {
-    if (const auto detour = findDetour(marker, frame, count)) {
+  const auto frames = static_cast<int>(track.positions.cols());
+  for (int frame = 2; frame + weights.cols() + 1 < frames; ++frame) {
+    if (const auto detour = findDetour(track, weights, frame, 0)) {
       detours.push_back(*detour);
     }
   }
@@ -348,31 +412,48 @@ double MarkerRepairer::findUsualDetour(int marker, int count) const {
   return *ninth;
 }
 
+/// Spikes of `count` frames of one marker.
+void MarkerRepairer::removeSpikesOf(int marker,
+                                    int count,
+                                    const MarkerCompanions& companions,
+                                    Track& track) {
+  const CubicWeights weights = makeCubicWeights(count);
+  // Asked for where something stands out at all: it looks at every frame once more.
+  std::optional<double> threshold;
+  for (int first = 2; first + count + 1 < markers_.frameCount(); ++first) {
+    const auto detour = findDetour(track, weights, first, kLeastSpike);
+    if (!detour || *detour < kLeastSpike) {
+      continue;
+    }
+    if (!threshold) {
+      threshold = std::max(kLeastSpike, kSpikeOverNoise * findUsualDetour(track, weights));
+    }
+    if (*detour < *threshold || isStep(marker, first, count, *detour)) {
+      continue;
+    }
+    const auto residual = companions.findResidual(markers_, first, marker, at(first, marker));
+    if (residual && *residual < kSpikeResidual) {
+      continue;
+    }
+    MarkerFault fault =
+        makeFault(MarkerFault::Kind::kSpike, marker, {first, first + count - 1}, *detour);
+    fault.action = MarkerFault::Action::kRemoved;
+    repair_.faults.push_back(fault);
+    for (int frame = first; frame < first + count; ++frame) {
+      put(frame, marker, Eigen::Vector3d::Constant(kNaN));
+      track.is_seen[static_cast<std::size_t>(frame)] = 0;
+    }
+  }
+}
+
 void MarkerRepairer::removeSpikes(const MarkerCompanions& companions) {
   const double rate = markers_.rate > 0 ? markers_.rate : 100.0;
   const int longest = std::clamp(static_cast<int>(kLongestSpike * rate), 1, kMostSpikeFrames);
   for (int marker = 0; marker < markers_.markerCount(); ++marker) {
+    Track track = makeTrack(marker);
     // Long ones first: their parts look like steps.
     for (int count = longest; count >= 1; --count) {
-      const double threshold =
-          std::max(kLeastSpike, kSpikeOverNoise * findUsualDetour(marker, count));
-      for (int first = 2; first + count + 1 < markers_.frameCount(); ++first) {
-        const auto detour = findDetour(marker, first, count);
-        if (!detour || *detour < threshold || isStep(marker, first, count, *detour)) {
-          continue;
-        }
-        const auto residual = companions.findResidual(markers_, first, marker, at(first, marker));
-        if (residual && *residual < kSpikeResidual) {
-          continue;
-        }
-        MarkerFault fault =
-            makeFault(MarkerFault::Kind::kSpike, marker, {first, first + count - 1}, *detour);
-        fault.action = MarkerFault::Action::kRemoved;
-        repair_.faults.push_back(fault);
-        for (int frame = first; frame < first + count; ++frame) {
-          put(frame, marker, Eigen::Vector3d::Constant(kNaN));
-        }
-      }
+      removeSpikesOf(marker, count, companions, track);
     }
   }
 }
