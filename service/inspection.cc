@@ -30,12 +30,6 @@ namespace {
 using api::UnderstoodFile;
 using api::UploadedFile;
 
-// A file as the parsers take it.
-struct OpenedFile {
-  std::string name;
-  std::string bytes;
-};
-
 // Reads the parts in the order of api::trialParts(), the movement before the forces, because the
 // markers tell which foot stands on a numbered plate.
 class Inspection {
@@ -48,10 +42,11 @@ class Inspection {
  private:
   using Warnings = std::vector<std::string>;
 
-  void inspect(const OpenedFile& file, UnderstoodFile& understood, Warnings& warnings);
-  void inspectMarkers(const OpenedFile& file, UnderstoodFile& understood, Warnings& warnings);
-  void inspectForces(const OpenedFile& file, UnderstoodFile& understood, Warnings& warnings);
-  void understand(const OpenedFile& file, UnderstoodFile& understood, Warnings& warnings);
+  void inspect(const InputFile& file, UnderstoodFile& understood, Warnings& warnings);
+  void inspectMarkers(const InputFile& file, UnderstoodFile& understood, Warnings& warnings);
+  void inspectForces(const InputFile& file, UnderstoodFile& understood, Warnings& warnings);
+  MarkerReading readMarkers(const InputFile& file, const std::string& part, Warnings& warnings);
+  void understand(ForceReading forces, UnderstoodFile& understood, Warnings& warnings);
   void put(const Gait& gait);
 
   void nameMarkers();
@@ -59,6 +54,7 @@ class Inspection {
   api::TrialView view_;
   PipelineSettings settings_;
   Intake intake_{settings_};
+  std::size_t told_ = 0;  // of the intake's warnings
   MarkerTrajectories movement_;
   std::vector<std::string> marker_names_;  // of static poses and movement, each once
   MarkerOverrides stated_names_;
@@ -73,16 +69,20 @@ void putTimes(const std::vector<double>& time, UnderstoodFile& understood) {
   }
 }
 
-TableFile inspectTable(const OpenedFile& file, UnderstoodFile& understood) {
-  TableFile table = readTable(file.bytes, file.name);
+void putTable(const TableFile& table, UnderstoodFile& understood) {
   understood.format = "table";
   putTimes(table.table.time, understood);
   understood.labels_kind = "columns";
   understood.labels = table.table.labels;
+}
+
+TableFile inspectTable(const InputFile& file, UnderstoodFile& understood) {
+  TableFile table = readTable(file.bytes, file.name);
+  putTable(table, understood);
   return table;
 }
 
-void inspectModel(const OpenedFile& file,
+void inspectModel(const InputFile& file,
                   UnderstoodFile& understood,
                   std::vector<std::string>& warnings) {
   const ModelSpec model = readOsim(file.bytes, file.name, &warnings);
@@ -93,7 +93,7 @@ void inspectModel(const OpenedFile& file,
   }
 }
 
-void inspectEmg(const OpenedFile& file,
+void inspectEmg(const InputFile& file,
                 UnderstoodFile& understood,
                 std::vector<std::string>& warnings) {
   const EmgFile recording = readEmg(file.bytes, file.name);
@@ -165,9 +165,8 @@ api::MarkerNamesView makeMarkerNames(const MarkerMapping& mapping) {
   return view;
 }
 
-void putMarkerFaults(MarkerTrajectories& markers, UnderstoodFile& understood) {
+void putMarkerFaults(const MarkerRepair& repair, UnderstoodFile& understood) {
   constexpr std::size_t kMostFaults = 200;
-  const MarkerRepair repair = repairMarkers({}, markers);
   for (const MarkerFault& fault : repair.faults) {
     if (understood.marker_faults.size() == kMostFaults) {
       return;
@@ -184,59 +183,66 @@ void putMarkerFaults(MarkerTrajectories& markers, UnderstoodFile& understood) {
   }
 }
 
-MarkerTrajectories readMarkerFile(const OpenedFile& file,
-                                  UnderstoodFile& understood,
-                                  std::vector<std::string>& warnings) {
-  if (!isC3d(file.bytes)) {
+/// A marker file as it stands: what can be told where the data allow two readings.
+MarkerReading readAsItStands(const InputFile& file) {
+  MarkerReading reading;
+  if (isC3d(file.bytes)) {
+    reading.recording = readC3d(file.bytes, file.name);
+    reading.format = "c3d";
+    reading.units = reading.recording->units;
+    reading.markers = std::move(reading.recording->markers);
+  } else {
     TrcFile trc = readTrc(file.bytes, file.name);
-    understood.format = "trc";
-    understood.units = trc.units;
-    warnings = std::move(trc.warnings);
-    return std::move(trc.markers);
+    reading.format = "trc";
+    reading.units = trc.units;
+    reading.markers = std::move(trc.markers);
   }
-  C3dFile c3d = readC3d(file.bytes, file.name);
-  understood.format = "c3d";
-  understood.units = c3d.units;
-  understood.recording = makeRecording(c3d);
-  warnings = std::move(c3d.warnings);
-  return std::move(c3d.markers);
+  return reading;
 }
 
-MarkerTrajectories readInGround(Intake& intake,
-                                const OpenedFile& file,
-                                std::vector<std::string>& warnings) {
+MarkerReading Inspection::readMarkers(const InputFile& file,
+                                      const std::string& part,
+                                      Warnings& warnings) {
   try {
-    return intake.readMovement({file.name, file.bytes}).markers;
+    return part == "markers" ? intake_.readMovement(file) : intake_.readStatic(file, part);
   } catch (const Error& error) {
+    if (error.code() != ErrorCode::kInputAmbiguous) {
+      throw;
+    }
     warnings.push_back("the gait cannot be told: " + error.message());
-    return {};
+    return readAsItStands(file);
   }
 }
 
-void Inspection::inspectMarkers(const OpenedFile& file,
+void Inspection::inspectMarkers(const InputFile& file,
                                 UnderstoodFile& understood,
                                 Warnings& warnings) {
-  MarkerTrajectories markers = readMarkerFile(file, understood, warnings);
-  putTimes(markers.time, understood);
-  if (markers.rate > 0) {
-    understood.rate = markers.rate;
+  MarkerReading reading = readMarkers(file, understood.part, warnings);
+  understood.format = reading.format;
+  understood.units = reading.units;
+  if (reading.recording) {
+    understood.recording = makeRecording(*reading.recording);
+  }
+  putTimes(reading.markers.time, understood);
+  if (reading.markers.rate > 0) {
+    understood.rate = reading.markers.rate;
   }
   understood.labels_kind = "markers";
-  understood.labels = markers.names;
-  putMarkerFaults(markers, understood);
+  understood.labels = reading.markers.names;
+  putMarkerFaults(reading.repair, understood);
   for (const std::string& name : understood.labels) {
     if (std::find(marker_names_.begin(), marker_names_.end(), name) == marker_names_.end()) {
       marker_names_.push_back(name);
     }
   }
   if (understood.part == "markers") {
-    movement_ = readInGround(intake_, file, warnings);
+    movement_ = std::move(reading.markers);
     put(understandMovement(movement_));  // until forces tell more
   }
 }
 
 // Feet and contacts of its plates need the laboratory's axes, which the job settles.
-void inspectPlates(const OpenedFile& file,
+void inspectPlates(const InputFile& file,
                    UnderstoodFile& understood,
                    std::vector<std::string>& warnings) {
   C3dFile c3d = readC3d(file.bytes, file.name);
@@ -254,38 +260,44 @@ void inspectPlates(const OpenedFile& file,
   warnings = std::move(c3d.warnings);
 }
 
-void Inspection::inspectForces(const OpenedFile& file,
+void Inspection::inspectForces(const InputFile& file,
                                UnderstoodFile& understood,
                                Warnings& warnings) {
   if (isC3d(file.bytes)) {
     inspectPlates(file, understood, warnings);
     return;
   }
-  const TableFile table = inspectTable(file, understood);
-  understood.labels_kind = "forces";
-  understood.labels = findForceFamilies(table.table.labels);
-  require(!understood.labels.empty(),
-          ErrorCode::kGrfColumns,
-          "no column is a ground reaction force such as ground_force_r_vx",
-          {file.name, 0, 0, ""});
-  warnings = table.warnings;
+  std::optional<ForceReading> forces;
   try {
-    understand(file, understood, warnings);
+    forces = intake_.readForces(file);
+    putTable(*forces->table, understood);
   } catch (const Error& error) {
+    if (error.code() != ErrorCode::kInputAmbiguous) {
+      throw;
+    }
+    inspectTable(file, understood);
     warnings.push_back("contacts cannot be told: " + error.message());
+  }
+  understood.labels_kind = "forces";
+  understood.labels = findForceFamilies(understood.labels);
+  if (forces) {
+    understand(std::move(*forces), understood, warnings);
   }
 }
 
-void Inspection::understand(const OpenedFile& file,
-                            UnderstoodFile& understood,
-                            Warnings& warnings) {
-  const Gait gait =
-      understandForces(intake_.readForces({file.name, file.bytes}), movement_, warnings);
-  for (const FootContact& contact : gait.contacts) {
-    understood.contacts.push_back(makeContact(contact));
+// Forces that can be read but are not what a job expects are a warning: settings may leave their
+// plate out.
+void Inspection::understand(ForceReading forces, UnderstoodFile& understood, Warnings& warnings) {
+  try {
+    const Gait gait = understandForces(std::move(forces), movement_, warnings);
+    for (const FootContact& contact : gait.contacts) {
+      understood.contacts.push_back(makeContact(contact));
+    }
+    warnings.insert(warnings.end(), gait.warnings.begin(), gait.warnings.end());
+    put(gait);
+  } catch (const Error& error) {
+    warnings.push_back("contacts cannot be told: " + error.message());
   }
-  warnings.insert(warnings.end(), gait.warnings.begin(), gait.warnings.end());
-  put(gait);
 }
 
 void Inspection::put(const Gait& gait) {
@@ -296,7 +308,7 @@ void Inspection::put(const Gait& gait) {
   view_.gait = describeAsJson(gait);
 }
 
-void Inspection::inspect(const OpenedFile& file, UnderstoodFile& understood, Warnings& warnings) {
+void Inspection::inspect(const InputFile& file, UnderstoodFile& understood, Warnings& warnings) {
   if (understood.part == "model") {
     inspectModel(file, understood, warnings);
   } else if (understood.part == "grf") {
@@ -305,7 +317,7 @@ void Inspection::inspect(const OpenedFile& file, UnderstoodFile& understood, War
     inspectEmg(file, understood, warnings);
   } else if (understood.part == "marker_names") {
     understood.format = "json";
-    stated_names_ = readMarkerNames({file.name, file.bytes});
+    stated_names_ = readMarkerNames(file);
   } else if (understood.part == "coordinates") {
     warnings = inspectTable(file, understood).warnings;
   } else {
@@ -325,6 +337,11 @@ void Inspection::read(const std::string& part, const UploadedFile& file) {
     throw;
   }
   view_.files.push_back(std::move(understood));
+  // The intake names the file itself.
+  const std::vector<std::string>& told = intake_.warnings();
+  view_.warnings.insert(
+      view_.warnings.end(), told.begin() + static_cast<std::ptrdiff_t>(told_), told.end());
+  told_ = told.size();
   for (const std::string& warning : warnings) {
     view_.warnings.push_back(file.name + ": " + warning);
   }
